@@ -5,6 +5,7 @@
 #include "peers/peer_boxes.h"
 #include "suite.h"
 #include "suites/box_scene.h"
+#include "suites/curved_rows.h"
 #include "suites/flight_rows.h"
 #include "suites/rest_rows.h"
 #include "suites/schedule_rows.h"
@@ -122,6 +123,8 @@ public:
             add_flight_rows(report_, 1000, options_.seed);
         if (options_.only.empty() || options_.only == "deformable")
             add_refresh_row(report_, 60);
+        if (options_.only.empty() || options_.only == "curved")
+            add_curved_rows(report_, 1000, options_.seed);
         if (options_.only.empty() || options_.only == "schedule")
             add_schedule_rows(report_, options_.seed);
         set_threads(0);

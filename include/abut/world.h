@@ -1,7 +1,10 @@
 #pragma once
 
+#include <abut/body_id.h>
 #include <abut/broad_phase.h>
+#include <abut/contacts.h>
 #include <abut/convex.h>
+#include <abut/curved_shapes.h>
 #include <abut/deformable.h>
 #include <abut/model.h>
 #include <abut/motion.h>
@@ -20,25 +23,6 @@
 /// Many moving bodies: which of them meet, how near they are, and when they may meet. docs/world.md
 /// explains the algorithms; docs/simulation-loop.md explains their use in a simulator.
 namespace abut {
-
-/// Identifies a body of a world. Valid until the body is removed, and never valid again.
-struct BodyId {
-    std::uint32_t index = std::numeric_limits<std::uint32_t>::max();
-    std::uint32_t generation = 0; ///< number of earlier bodies with this index
-    friend bool operator==(const BodyId&, const BodyId&) = default;
-    friend bool operator<(const BodyId& a, const BodyId& b) {
-        return a.index != b.index ? a.index < b.index : a.generation < b.generation;
-    }
-};
-
-/// Two bodies, with a.index < b.index.
-struct BodyPair {
-    BodyId a, b;
-    friend bool operator==(const BodyPair&, const BodyPair&) = default;
-    friend bool operator<(const BodyPair& p, const BodyPair& q) {
-        return p.a == q.a ? p.b < q.b : p.a < q.a;
-    }
-};
 
 /// Decides which bodies a body can meet.
 struct BodyOptions {
@@ -98,12 +82,13 @@ struct ScheduleCounters {
 };
 
 class CollisionSchedule;
+class NearPairs;
 class WorldData;
 
 /// Bodies, the pairs of bodies whose boxes overlap, and exact queries on these pairs.
 ///
-/// A model is a surface; convex bodies, spheres, capsules and boxes are solid. A deformable surface
-/// counts as it is at the start of its step. Models and convex bodies share their data with the
+/// A model is a surface; all other shapes are solid, but a deformable surface, which counts as it is
+/// at the start of its step. Models and convex bodies share their data with the
 /// world. A deformable belongs to the caller, who keeps it until the body is removed.
 ///
 /// Queries with a progress report the fraction of finished pairs, and end with Error{interrupted}
@@ -122,14 +107,19 @@ public:
     /// Adds a body. Shapes are in the body's own frame, which the pose maps to the world.
     ///
     /// Errors      Error{bad_argument} if a value of the pose or shape is not finite or a
-    ///             coordinate is beyond 1e18, a quaternion has zero length, a radius is negative,
-    ///             or a box is empty. The message begins with the id that the body would have had:
+    ///             coordinate is beyond 1e18, a quaternion has zero length, a radius or semi-axis is
+    ///             negative, a cylinder's or cone's ends are equal, a normal is zero, or a box is
+    ///             empty. The message begins with the id that the body would have had:
     ///             "body 12: ".
     BodyId add(const Model& model, const Pose& pose, const BodyOptions& options = {});
     BodyId add(const Convex& convex, const Pose& pose, const BodyOptions& options = {});
     BodyId add(const Sphere& sphere, const Pose& pose, const BodyOptions& options = {});
     BodyId add(const Capsule& capsule, const Pose& pose, const BodyOptions& options = {});
     BodyId add(const Box3& box, const Pose& pose, const BodyOptions& options = {});
+    BodyId add(const Cylinder& cylinder, const Pose& pose, const BodyOptions& options = {});
+    BodyId add(const Cone& cone, const Pose& pose, const BodyOptions& options = {});
+    BodyId add(const Ellipsoid& ellipsoid, const Pose& pose, const BodyOptions& options = {});
+    BodyId add(const HalfSpace& half_space, const Pose& pose, const BodyOptions& options = {});
     BodyId add(const Deformable& surface, const BodyOptions& options = {});
 
     /// Moves a body.
@@ -153,6 +143,7 @@ public:
     /// Errors      of this function and the next: Error{bad_argument} if the id is not valid.
     [[nodiscard]] const Transform& world_from_body(BodyId body) const;
     /// Returns a box that encloses the body. For a model, it encloses the model's own box, rotated.
+    /// That of a half-space is infinite, except on the side of its plane if that is across an axis.
     [[nodiscard]] Box3 box(BodyId body) const;
 
     /// Finds the pairs of bodies whose boxes overlap, and those that began and ended since the last
@@ -173,7 +164,11 @@ public:
     ///             bodies, spheres, capsules and boxes, and for a model with a sphere. For two
     ///             models, and for a model with a box or a convex body, it is that of `penetration`
     ///             (bound_only). For a model and a capsule whose axis crosses its surface, it is at
-    ///             least the radius (bound_only).
+    ///             least the radius (bound_only). For cylinders, cones and ellipsoids it is correct
+    ///             to 1e-12 of the size of both bodies; with a model, it is that of one of its
+    ///             triangles (bound_only). For a half-space it is correct to rounding. Two
+    ///             half-spaces that meet are infinitely deep in each other, unless their normals are
+    ///             opposite.
     std::vector<BodyGap> penetration(const Progress& progress = {});
     /// Finds all pairs of bodies that are at most `distance` apart, and their distances, as exact
     /// as `distance`. The distance is 0 for models that meet, and negative for other bodies that
@@ -182,14 +177,29 @@ public:
     /// Errors      Error{bad_argument} if the distance is negative or not finite.
     std::vector<BodyGap> within(double distance, const Progress& progress = {});
 
+    /// Finds the contacts of all pairs of bodies that are at most `margin` apart: for each region
+    /// where two bodies meet or are near, a normal and up to four points. Sorted by pair, then by
+    /// region.
+    ///
+    /// Accuracy    for convex bodies, spheres, capsules and boxes: the normal is the direction of
+    ///             the shortest separating motion, or of the distance, and the first point has that
+    ///             depth, to rounding. For models and deformables, with each other, boxes and convex
+    ///             bodies: as `contact_manifolds` of models; else one point, as `penetration`.
+    /// Errors      Error{bad_argument} if the margin is negative or not finite.
+    /// Cost        with a margin, a second broad phase, which is kept from step to step.
+    std::vector<ContactManifold> contact_manifolds(double margin = 0,
+                                                   const Progress& progress = {});
+
     /// Finds when bodies that move in this step first meet. Each pair is listed once; the list is
     /// sorted. Deformables move as their steps define, with the same t from 0 to 1 as the motions.
     /// Other bodies that are not named stay at rest, and two of them are not tested. A pair that
     /// meets at t = 0 has time 0 and no normal.
     ///
     /// Accuracy    as `time_of_impact`: no time is later than the first contact, and no contact is
-    ///             missed. For two deformables it is exact; `contact_time` is less than 1e-9 after
-    ///             the first contact.
+    ///             missed. A deformable meets a cylinder, cone or ellipsoid when it meets a
+    ///             polyhedron around it, whose radii are at most 0.5 % larger (bound_only). For two
+    ///             deformables it is exact; `contact_time` is less than 1e-9 after the first
+    ///             contact.
     /// Errors      Error{bad_argument} as `time_of_impact`, naming the body; also if an id is not
     ///             valid, occurs twice, or is that of a deformable.
     /// Cost        for a deformable and another body, that of the triangles near the other's path.
@@ -251,6 +261,7 @@ public:
 private:
     std::unique_ptr<WorldData> data_;
     std::unique_ptr<CollisionSchedule> schedule_;
+    std::unique_ptr<NearPairs> near_pairs_;
 };
 
 } // namespace abut

@@ -1082,10 +1082,64 @@ class ColourGroup:
     def parts(self) -> int:
         """how many"""
 
+class Cone:
+    """The solid between an apex and a disc around `base`, across the axis."""
+    def __init__(self, apex: ArrayLike, base: ArrayLike, radius: float) -> None: ...
+    @property
+    def apex(self) -> NDArray[Any]:
+        """array of shape (3,)"""
+    @property
+    def base(self) -> NDArray[Any]:
+        """array of shape (3,): centre of the disc"""
+    @property
+    def radius(self) -> float:
+        """length, at least 0"""
+
+class ContactManifold:
+    """A region where two bodies are in contact, world frame."""
+    dtype: np.dtype[Any]
+    @property
+    def a(self) -> int:
+        """body"""
+    @property
+    def b(self) -> int:
+        """body"""
+    @property
+    def normal(self) -> NDArray[np.float64]:
+        """unit vector from a to b"""
+    @property
+    def region(self) -> int:
+        """names the contact region of this pair; 0 for convex bodies"""
+    @property
+    def count(self) -> int:
+        """of the points that are set"""
+    @property
+    def points(self) -> list[ContactPoint]:
+        """list of ContactPoint: four, the deepest first"""
+    @property
+    def status(self) -> Status:
+        """Status; bound_only: bodies that meet are at least this deep in each other"""
+
 class ContactMode(IntEnum):
     """Whether to stop at the first pair."""
     first = 0
     all = 1
+
+class ContactPoint:
+    """A point of a ContactManifold."""
+    dtype: np.dtype[Any]
+    @property
+    def point_a(self) -> NDArray[np.float64]:
+        """on a"""
+    @property
+    def point_b(self) -> NDArray[np.float64]:
+        """on b"""
+    @property
+    def depth(self) -> float:
+        """length along the normal; negative: a gap"""
+    @property
+    def feature(self) -> int:
+        """names the two features that make the point; stays while they do"""
 
 class ContactRegion:
     """A place where two models meet."""
@@ -1330,6 +1384,16 @@ class Culling(IntEnum):
     grid = 1
     sweep = 2
 
+class Cylinder:
+    """The solid between two discs of the same radius across the ends of a Segment."""
+    def __init__(self, axis: Segment, radius: float) -> None: ...
+    @property
+    def axis(self) -> Segment:
+        """Segment"""
+    @property
+    def radius(self) -> float:
+        """length, at least 0"""
+
 class Deformable:
     """A triangle mesh whose vertices move from step to step: in a step every vertex goes in a straight line from
     its start to its end while t goes from 0 to 1. Takes what Model takes; at rest until the first step.
@@ -1504,6 +1568,16 @@ class ElementaryStage(IntEnum):
     interval = 1
     exact = 2
 
+class Ellipsoid:
+    """A solid ellipsoid along the axes of its frame."""
+    def __init__(self, centre: ArrayLike, semi_axes: ArrayLike) -> None: ...
+    @property
+    def centre(self) -> NDArray[Any]:
+        """array of shape (3,)"""
+    @property
+    def semi_axes(self) -> NDArray[Any]:
+        """array of shape (3,): lengths, at least 0"""
+
 class Error(RuntimeError):
     """Bad data, failed input or output, and limits.
 
@@ -1580,6 +1654,25 @@ class FeaturePair:
     @property
     def barycentric(self) -> NDArray[np.float64]:
         """of the closest points"""
+
+class FeatureTest:
+    """Two features to be tested."""
+    dtype: np.dtype[Any]
+    @property
+    def kind(self) -> ElementaryKind:
+        """ElementaryKind"""
+    @property
+    def face_first(self) -> bool:
+        """the face is the first surface's, the vertex the second's"""
+    @property
+    def a(self) -> int:
+        """vertex, or edge"""
+    @property
+    def b(self) -> int:
+        """triangle, or edge"""
+    @property
+    def vertices(self) -> NDArray[np.uint32]:
+        """the vertex, then the face's three; or the edges' two each"""
 
 class FirstContact:
     """Returned by Walk.sweep and Walk.time_of_impact. True if the probe meets a part."""
@@ -1764,6 +1857,16 @@ class GroupReview:
     @property
     def history(self) -> list[JobCounts]:
         """list of JobCounts, the earliest first"""
+
+class HalfSpace:
+    """All points x with normal . x <= offset."""
+    def __init__(self, normal: ArrayLike, offset: float) -> None: ...
+    @property
+    def normal(self) -> NDArray[Any]:
+        """array of shape (3,): points out of the solid"""
+    @property
+    def offset(self) -> float:
+        """in lengths of the normal"""
 
 class HitPart:
     """Returned by Walk.first_hit. True if the ray meets a part."""
@@ -2238,6 +2341,24 @@ class Model:
     @property
     def bytes(self) -> int:
         """memory of mesh and hierarchy"""
+
+class ModelManifold:
+    """A region where two models meet, as a contact solver needs it."""
+    @property
+    def normal(self) -> NDArray[Any]:
+        """unit vector from a to b"""
+    @property
+    def region(self) -> int:
+        """names the region"""
+    @property
+    def count(self) -> int:
+        """of the points, 1 to 4"""
+    @property
+    def points(self) -> record:
+        """record array of ContactPoint: the deepest comes first"""
+    @property
+    def status(self) -> Status:
+        """Status"""
 
 class ModelPath:
     """A path with the unit and the axis of its file."""
@@ -3139,6 +3260,36 @@ class ReportPart:
     def model(self) -> int: ...
     @property
     def part(self) -> int: ...
+
+class Representatives:
+    """The triangles of a surface, with exactly one of its triangles for every vertex and every edge: the one that
+    represents it. For a culling of your own, with self_feature_tests and feature_tests.
+
+    Several threads may read it; a change meanwhile raises RuntimeError.
+    Raises Error (bad_mesh) if an index is out of range.
+    """
+    def __init__(self, vertex_count: int, faces: ArrayLike, *, assignment: Assignment | str = ...) -> None: ...
+    def set_triangles(self, vertex_count: int, faces: ArrayLike) -> None:
+        """Replaces the triangles and forgets the motion. A triangle that keeps its index and its vertices keeps its edges'
+        numbers and the features that it represents. Errors as the constructor.
+        """
+    def set_motion(self, start: ArrayLike, end: ArrayLike) -> None:
+        """Sets where every vertex is at t = 0 and t = 1, arrays of shape (n, 3). From then on only features are tested
+        whose boxes come near each other. Errors as Deformable.set_motion.
+        """
+    @property
+    def vertex_count(self) -> int: ...
+    @property
+    def triangles(self) -> NDArray[np.uint32]:
+        """uint32 array of shape (m, 3)"""
+    @property
+    def edges(self) -> NDArray[np.uint32]:
+        """uint32 array of shape (k, 2); 2^32 - 1 twice where there is no edge any more"""
+    @property
+    def represented(self) -> NDArray[Any]:
+        """uint8 array: bit k for a triangle's vertex k, bit 3 + k for its edge k"""
+    @property
+    def bytes(self) -> int: ...
 
 class Robot:
     """A robot that is ready for queries.
@@ -4192,7 +4343,7 @@ class WorkerCounters:
 
 class World:
     """Many bodies that move: which of them meet, how near they are, when they may meet. A model is its surface;
-    Convex, Sphere, Capsule and Box3 are solid. A world keeps its models and deformables alive.
+    all other shapes are solid. A world keeps its models and deformables alive.
 
     A body is an int; it is valid until the body is removed, and then never again.
 
@@ -4205,8 +4356,9 @@ class World:
     for any number of threads, and stop at Ctrl-C; the world is as before then.
     """
     def __init__(self, *, broad_phase: BroadPhaseMethod | str = ..., filter: Callable[[int, int], bool] | None = ...) -> None: ...
-    def add(self, shape: Model | Convex | Sphere | Capsule | Box3 | Deformable, pose: _Poses = ..., *, is_static: bool = ..., groups: int = ..., mask: int = ...) -> int:
-        """Adds a Model, Convex, Sphere, Capsule, Box3 or Deformable; returns its body, an int.
+    def add(self, shape: Model | Convex | Sphere | Capsule | Box3 | Cylinder | Cone | Ellipsoid | HalfSpace | Deformable, pose: _Poses = ..., *, is_static: bool = ..., groups: int = ..., mask: int = ...) -> int:
+        """Adds a Model, Convex, Sphere, Capsule, Box3, Cylinder, Cone, Ellipsoid, HalfSpace or Deformable;
+        returns its body, an int.
 
         pose       rigid: a matrix of shape (4, 4), (translation, quaternion) or a Pose; none for a Deformable
         is_static  static bodies do not meet each other
@@ -4258,6 +4410,10 @@ class World:
 
         motions  a dict of body to Motion, or a list of (body, Motion); others stay where they are, and
                  deformables move as their steps say
+        """
+    def contact_manifolds(self, margin: float = ..., *, progress: _Progress = ...) -> np.recarray[Any, Any]:
+        """The contacts of all pairs at most `margin` apart, a length: for each region a normal and up to four points. A
+        record array of ContactManifold. Error (bad_argument) if the margin is negative.
         """
     def set_speed(self, body: int, velocity: ArrayLike = ..., acceleration: ArrayLike = ..., acceleration_bound: float = ..., angular_speed: float = ..., angular_acceleration: float = ..., angular_velocity: ArrayLike = ...) -> None:
         """Bounds on the body's motion from its place and the time of the last `advance`. Call it before `move`.
@@ -4405,6 +4561,16 @@ def collide(a: ConvexPieces, pose_a: _OnePose, b: ConvexPieces, pose_b: _OnePose
 def collide(a: ConvexPieces, pose_a: _Poses, b: ConvexPieces, pose_b: _Poses, *, mode: ContactMode | str = ..., warm_start: PiecesWarmStart | None = ..., progress: _Progress = ..., triangles: bool = ...) -> Any: ...
 @overload
 def collide(robot: Robot, configuration: ArrayLike, *, self_pairs: bool = ..., obstacles: RobotObstacles | None = ..., root: bool = ..., progress: _Progress = ...) -> Any: ...
+def contact_manifolds(a: Model, pose_a: _OnePose, b: Model, pose_b: _OnePose, *, margin: float = ..., last: Sequence[ModelManifold] | None = ..., progress: _Progress = ...) -> list[ModelManifold]:
+    """A normal and up to four points for each region where two Model touch.
+
+    margin    triangles that are at most this far apart give points with negative depth
+    last      the list of the last step: regions keep its names
+    progress  function of (stage, fraction)
+
+    Returns a list of ModelManifold. Raises Error (bad_argument) if a pose or the margin is not finite,
+    or the margin is negative; KeyboardInterrupt at Ctrl-C.
+    """
 @overload
 def contains(model: Model, pose: _OnePose | ArrayLike, points: _Point, *, progress: _Progress = ...) -> Containment:
     """Whether each point lies inside the model, outside or on its surface.
@@ -4483,6 +4649,8 @@ def elementary_impacts(kinds: ElementaryKind | str | ArrayLike, start: ArrayLike
 
     Returns a record array of shape (n,) with the fields of ElementaryImpact.
     """
+def feature_tests(representatives_a: Representatives, representatives_b: Representatives, pairs: ArrayLike, *, margin: float = ...) -> np.recarray[Any, Any]:
+    """As self_feature_tests, but between two surfaces: pairs of a triangle of each."""
 @overload
 def find_clashes(store: Store, *, clearance: float = ..., touch_tolerance: float = ..., self: bool = ..., rules: Sequence[ClashRule] | _Path = ..., progress: _Progress = ..., memory: int = ..., order: WorkOrder | str = ..., keep: bool = ..., keep_hierarchies: bool = ..., crew: Crew | None = ..., only: str | PartQuery = ..., a: str | PartQuery = ..., b: str | PartQuery = ..., matrix: ClashMatrix | _Path | None = ..., leave_out: Sequence[Neighbours | str] = ..., sort: ClashOrder | str = ...) -> ClashReport:
     """All clashes and clearances between the parts of different models; of one model, between its parts.
@@ -4913,6 +5081,14 @@ def review_clashes(store: Store) -> list[ClashReview]:
 def review_groups(store: Store, since: int | None = ...) -> list[GroupReview]:
     """One GroupReview for each question and grouping of a store: what has become of the groups since the last job that
     ended before a time (seconds since 1970); None: since the job before the last one.
+    """
+def self_feature_tests(representatives: Representatives, pairs: ArrayLike, *, margin: float = ...) -> np.recarray[Any, Any]:
+    """The tests to which pairs of triangles of one surface lead, each once.
+
+    pairs   array of shape (n, 2): each pair of triangles at most once, also neighbours
+    margin  length: features nearer than this are tested too
+
+    Returns a record array of FeatureTest. Raises Error (bad_argument) for an index out of range.
     """
 def self_impacts(surface: Deformable, *, absolute_error: float = ..., thickness: float = ..., progress: _Progress = ...) -> Impacts:
     """Every vertex and face, and every two edges, of a Deformable that meet during its step.

@@ -74,10 +74,14 @@ PARAMETERS = {
     "towards": "ArrayLike", "velocity": "ArrayLike", "aim": "NamedView | str | Camera | PartAim | PairAim | SidesAim | Clash",
     "colour_by": "ColourBy | str", "by": "ColourBy | str", "picture": "NDArray[Any]", "normal": "ArrayLike",
     "reason": "AllowReason | str", "configuration": "ArrayLike", "properties": "Properties | None",
+    "representatives": "Representatives", "representatives_a": "Representatives",
+    "representatives_b": "Representatives", "pairs": "ArrayLike", "margin": "float", "vertex_count": "int",
     "relations": "Sequence[PartRelation]", "version": "BcfVersion | str",
 }
 # The same for one function or class.
 OWN_PARAMETERS = {
+    "contact_manifolds": {"a": "Model", "b": "Model", "pose_a": "_OnePose", "pose_b": "_OnePose", "margin": "float",
+                          "last": "Sequence[ModelManifold] | None"},
     "Camera": {"up": "ArrayLike"}, "TourPoint": {"up": "ArrayLike", "name": "str"}, "look_at_box": {"up": "ArrayLike"},
     "picture": {"models": "Store | Iterable[Scene | _ModelPath] | Scene | _ModelPath", "section_box": "Box3 | None"},
     "PairAim": {"file": "Sequence[str]", "part": "Sequence[str]", "points": "Sequence[ArrayLike] | None"},
@@ -94,13 +98,16 @@ OWN_PARAMETERS = {
     "Walk.parts_in_way": {"absolute_error": "float | None"}, "Carry.move_to": {"mode": "CarryMode | str"},
     "Walker.set_mode": {"mode": "WalkerMode | str"}, "Walk.first_hit": {"origin": "Ray | ArrayLike"},
     "build_levels": {"store": "_Path"}, "Probe": {"shape": "Model | Convex | Sphere | Capsule | Box3"}, "World.move": {"body": "_Bodies"},
-    "World.add": {"shape": "Model | Convex | Sphere | Capsule | Box3 | Deformable"},
+    "World.add": {"shape": "Model | Convex | Sphere | Capsule | Box3 | Cylinder | Cone | Ellipsoid | HalfSpace | Deformable"},
     "Walk.distance": {"probe": "int | Probe | Model | Convex | Sphere | Capsule | Box3"},
     "Walk.within": {"probe": "int | Probe | Model | Convex | Sphere | Capsule | Box3"},
     "Walk.collide": {"probe": "int | Probe | Model | Convex | Sphere | Capsule | Box3"},
     "Walk.penetration": {"probe": "int | Probe | Model | Convex | Sphere | Capsule | Box3"},
+    "Cone": {"apex": "ArrayLike", "base": "ArrayLike"}, "Ellipsoid": {"semi_axes": "ArrayLike"},
     "World": {"filter": "Callable[[int, int], bool] | None"}, "BroadPhase": {"filter": "Callable[[int, int], bool] | None"},
     "overlapping_boxes": {"filter": "Callable[[int, int], bool] | None"},
+    "Representatives": {"faces": "ArrayLike"}, "Representatives.set_triangles": {"faces": "ArrayLike"},
+    "Representatives.set_motion": {"start": "ArrayLike", "end": "ArrayLike"},
     "Deformable.set_motion": {"start": "ArrayLike", "end": "ArrayLike"}, "Deformable.advance": {"end": "ArrayLike"},
     "elementary_impact": {"start": "ArrayLike", "end": "ArrayLike"}, "elementary_impacts": {"start": "ArrayLike", "end": "ArrayLike"},
     "read_elementary_queries": {"kind": "ElementaryKind | str | None"}, "Walk.move_to": {"velocity": "ArrayLike | None"},
@@ -195,12 +202,14 @@ OTHER_OVERLOADS = {
 RETURNS = {
     "overlapping_triangles": "NDArray[np.uint32]", "self_impacts": "Impacts", "impacts": "Impacts", "overlap_graph": "GraphReport",
     "self_time_of_impact": "FeatureImpact | None", "is_free_of_self_impacts": "bool", "is_free_of_impacts": "bool",
+    "self_feature_tests": "np.recarray[Any, Any]", "feature_tests": "np.recarray[Any, Any]",
     "self_within": "np.recarray[Any, Any]", "self_intersections": "np.recarray[Any, Any]",
     "intersections": "np.recarray[Any, Any]", "elementary_impacts": "np.recarray[Any, Any]", "join_crew": "Crew | None",
     "read_frame_positions": "NDArray[np.float64] | None", "Motion.between": "Any", "Motion.screw": "Any", "picture": "NDArray[np.uint8]",
     "PictureMaker.make": "NDArray[np.uint8]", "Renderer.picture": "NDArray[np.uint8]", "Renderer.end_picture": "NDArray[np.uint8]",
     "Renderer.visible_samples": "NDArray[np.uint64]", "on_screen": "NDArray[np.float64] | None",
     "World.penetration": "np.recarray[Any, Any]", "World.within": "np.recarray[Any, Any]",
+    "World.contact_manifolds": "np.recarray[Any, Any]",
     "World.time_of_impact": "np.recarray[Any, Any]", "read_elementary_queries": "tuple[NDArray[Any], NDArray[Any], NDArray[Any], NDArray[Any]]",
 }
 PROPERTIES = {

@@ -18,6 +18,7 @@ PYBIND11_MODULE(_abut, module) {
     bind_rigid(module);
     bind_motion(module);
     bind_penetration(module);
+    bind_model_contacts(module);
     bind_shapes(module);
     bind_shape_queries(module);
     bind_convex(module);

@@ -14,6 +14,7 @@ void bind_model(py::module_& module);
 void bind_rigid(py::module_& module);
 void bind_motion(py::module_& module);
 void bind_penetration(py::module_& module);
+void bind_model_contacts(py::module_& module);
 void bind_shapes(py::module_& module);
 void bind_shape_queries(py::module_& module);
 void bind_convex(py::module_& module);

@@ -1,3 +1,4 @@
+#include <abut/curved_shapes.h>
 #include <abut/shapes.h>
 
 #include "module.h"
@@ -5,6 +6,53 @@
 #include "support/records.h"
 
 namespace abut::python {
+
+namespace {
+
+void bind_curved_shapes(py::module_& module) {
+    PlainBinder<Cylinder>(module, "Cylinder",
+                          "Cylinder(axis, radius)\n\nThe solid between two discs of the same "
+                          "radius across the ends of a Segment.")
+        .field("axis", &Cylinder::axis, "Segment")
+        .field("radius", &Cylinder::radius, "length, at least 0")
+        .done()
+        .def(py::init([](const Segment& axis, double radius) {
+                 return Cylinder{axis, radius};
+             }),
+             py::arg("axis"), py::arg("radius"));
+    PlainBinder<Cone>(module, "Cone",
+                      "Cone(apex, base, radius)\n\nThe solid between an apex and a disc around "
+                      "`base`, across the axis.")
+        .field("apex", &Cone::apex, "array of shape (3,)")
+        .field("base", &Cone::base, "array of shape (3,): centre of the disc")
+        .field("radius", &Cone::radius, "length, at least 0")
+        .done()
+        .def(py::init([](const py::object& apex, const py::object& base, double radius) {
+                 return Cone{to_vec3(apex, "apex"), to_vec3(base, "base"), radius};
+             }),
+             py::arg("apex"), py::arg("base"), py::arg("radius"));
+    PlainBinder<Ellipsoid>(module, "Ellipsoid",
+                           "Ellipsoid(centre, semi_axes)\n\nA solid ellipsoid along the axes of "
+                           "its frame.")
+        .field("centre", &Ellipsoid::centre, "array of shape (3,)")
+        .field("semi_axes", &Ellipsoid::semi_axes, "array of shape (3,): lengths, at least 0")
+        .done()
+        .def(py::init([](const py::object& centre, const py::object& semi_axes) {
+                 return Ellipsoid{to_vec3(centre, "centre"), to_vec3(semi_axes, "semi_axes")};
+             }),
+             py::arg("centre"), py::arg("semi_axes"));
+    PlainBinder<HalfSpace>(module, "HalfSpace",
+                           "HalfSpace(normal, offset)\n\nAll points x with normal . x <= offset.")
+        .field("normal", &HalfSpace::normal, "array of shape (3,): points out of the solid")
+        .field("offset", &HalfSpace::offset, "in lengths of the normal")
+        .done()
+        .def(py::init([](const py::object& normal, double offset) {
+                 return HalfSpace{to_vec3(normal, "normal"), offset};
+             }),
+             py::arg("normal"), py::arg("offset"));
+}
+
+} // namespace
 
 void bind_shapes(py::module_& module) {
     const double infinity = std::numeric_limits<double>::infinity();
@@ -48,6 +96,7 @@ void bind_shapes(py::module_& module) {
                  return Capsule{axis, radius};
              }),
              py::arg("axis"), py::arg("radius"));
+    bind_curved_shapes(module);
     PlainBinder<OrientedBox>(module, "OrientedBox",
                              "OrientedBox(box, pose)\n\nA solid Box3 in a frame of its own.")
         .field("box", &OrientedBox::box, "Box3")

@@ -148,7 +148,7 @@ OPTIONS = {
     "PiecesCollideOptions": "collide", "PiecesPenetrationOptions": "penetration", "DeformableOptions": "Deformable",
     "IntersectionOptions": "self_intersections",
     "ElementaryOptions": "elementary_impact", "ModelOptions": "Model", "ImpactOptions": "time_of_impact",
-    "PenetrationOptions": "penetration", "CollideOptions": "collide", "DistanceOptions": "distance", "WithinOptions": "within",
+    "PenetrationOptions": "penetration", "ManifoldOptions": "contact_manifolds", "CollideOptions": "collide", "DistanceOptions": "distance", "WithinOptions": "within",
     "ReadOptions": "read_scene", "NearestOptions": "nearest", "ImportOptions": "import_models", "StoreOptions": "open_store",
     "OutOfCoreOptions": "find_clashes", "GroupOptions": "group_clashes", "MergeOptions": "merge_topics", "WalkOptions": "Walk", "BodyOptions": "World.add", "WorldOptions": "World",
     "SpeedBounds": "World.set_speed", "LevelOptions": "build_levels", "PathOptions": "check_path",

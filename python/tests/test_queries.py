@@ -95,6 +95,20 @@ def test_options_and_results():
     assert error.value.code is abut.ErrorCode.bad_argument
 
 
+def test_contact_manifolds():
+    ground = abut.Model(*box())
+    place = matrix((0.25, 0.125, 0.9))
+    (found,) = abut.contact_manifolds(ground, None, ground, place)
+    assert found.count == 4 and found.normal == pytest.approx((0, 0, 1)) and found.status == abut.Status.exact
+    assert found.points.depth == pytest.approx(0.1) and len(set(found.points.feature)) == 4
+    assert np.allclose(found.points.point_a - found.points.point_b, (0, 0, 0.1))
+    (again,) = abut.contact_manifolds(ground, None, ground, place, margin=0.01, last=[found])
+    assert again.region == found.region and again.points.feature.tolist() == found.points.feature.tolist()
+    assert abut.contact_manifolds(ground, None, ground, matrix((3, 0, 0))) == []
+    with pytest.raises(abut.Error):
+        abut.contact_manifolds(ground, None, ground, place, margin=-1)
+
+
 def test_penetration():
     a = abut.Model(*box())
     pose = matrix((0.9, 0.1, 0))

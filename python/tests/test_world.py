@@ -35,6 +35,24 @@ def test_pairs_against_single_queries(rng):
     assert [30, 31] in world.collide().tolist()
 
 
+def test_curved_shapes():
+    world = abut.World()
+    floor = world.add(abut.HalfSpace((0, 0, 2), 0), is_static=True)
+    cylinder = world.add(abut.Cylinder(abut.Segment((0, 0, 1), (0, 0, 2)), 0.5))
+    cone = world.add(abut.Cone(apex=(3, 0, 0.5), base=(3, 0, 1), radius=1))
+    ellipsoid = world.add(abut.Ellipsoid((6, 0, 0.5), (1, 2, 0.75)))
+    assert world.collide().tolist() == [[floor, ellipsoid]]
+    gaps = world.within(1)
+    assert gaps.a.tolist() == [floor] * 3 and gaps.b.tolist() == [cylinder, cone, ellipsoid]
+    assert np.allclose(gaps.distance, [1, 0.5, -0.25], atol=1e-12)
+    assert np.allclose(gaps.normal, [0, 0, 1])
+    box_of_floor = world.box(floor)
+    assert np.isinf([box_of_floor.lower, box_of_floor.upper]).sum() == 5
+    assert abut.Ellipsoid((6, 0, 0.5), (1, 2, 0.75)).semi_axes.tolist() == [1, 2, 0.75]
+    with pytest.raises(abut.Error, match="body 4: "):
+        world.add(abut.Cone((0, 0, 0), (0, 0, 0), 1))
+
+
 def test_bodies_end():
     world = abut.World()
     a = world.add(abut.Box3((0, 0, 0), (1, 1, 1)))
@@ -130,3 +148,20 @@ def test_move_takes_arrays_with_any_strides():
     world.move(np.zeros(0, np.int64), np.zeros((0, 4, 4)))
     with pytest.raises(TypeError):
         world.move(bodies[:3].astype(float), poses)
+
+
+def test_contact_manifolds():
+    world = abut.World()
+    floor = world.add(abut.Box3((-5, -5, -1), (5, 5, 0)), is_static=True)
+    crate = world.add(abut.Box3((-1, -1, -1), (1, 1, 1)), matrix((0.5, 0, 0.995)))
+    ball = world.add(abut.Sphere((0, 0, 0), 0.5), matrix((4, 0, 0.51)))
+    contacts = world.contact_manifolds(0.02)
+    assert contacts.a.tolist() == [floor, floor] and contacts.b.tolist() == [crate, ball]
+    assert contacts["count"].tolist() == [4, 1] and np.allclose(contacts.normal, (0, 0, 1))
+    points = contacts[0].points
+    assert np.allclose(points["depth"], 0.005) and len(set(points["feature"])) == 4
+    assert np.allclose(np.sort(points["point_a"][:, 0]), (-0.5, -0.5, 1.5, 1.5))
+    assert np.isclose(contacts[1].points["depth"][0], -0.01)
+    assert len(world.contact_manifolds()) == 1
+    with pytest.raises(abut.Error):
+        world.contact_manifolds(-1)

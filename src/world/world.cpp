@@ -5,6 +5,8 @@
 #include "core/progress.h"
 #include "deform/deformable_data.h"
 #include "rigid/shapes/shape_arguments.h"
+#include "world/contacts/body_contacts.h"
+#include "world/contacts/near_pairs.h"
 #include "world/narrow_phase/world_data.h"
 #include "world/schedule/body_impact.h"
 #include "world/schedule/time_to_collision_schedule.h"
@@ -53,11 +55,10 @@ std::vector<BodyPair> with_ids(const WorldData& data, const std::vector<IndexPai
     return result;
 }
 
-/// Calls find(pair, k) for the k-th pair, in parallel. Returns the results that are not empty, in
-/// order.
-template <typename Result, typename Find>
-std::vector<Result> results_of(const Progress& progress, std::string_view stage,
-                               const std::vector<IndexPair>& pairs, const Find& find) {
+/// Calls append(pair, k, results) for the k-th pair, in parallel. Returns all results, in order.
+template <typename Result, typename Append>
+std::vector<Result> all_results_of(const Progress& progress, std::string_view stage,
+                                   const std::vector<IndexPair>& pairs, const Append& append) {
     constexpr std::size_t kPairsOfTask = 16;
     const StopScope stopping(progress);
     ProgressMeter meter(progress, stage, pairs.size());
@@ -65,21 +66,36 @@ std::vector<Result> results_of(const Progress& progress, std::string_view stage,
     parallel_for(found.size(), 1, [&](std::size_t task) {
         const std::size_t end = std::min(pairs.size(), (task + 1) * kPairsOfTask);
         for (std::size_t k = task * kPairsOfTask; k < end; ++k)
-            if (std::optional<Result> result = find(pairs[k], k))
-                found[task].push_back(*result);
+            append(pairs[k], k, found[task]);
         meter.advance(end - task * kPairsOfTask);
     });
+    std::size_t size = 0;
+    for (const auto& some : found)
+        size += some.size();
     std::vector<Result> results;
+    results.reserve(size);
     for (auto& some : found)
         std::move(some.begin(), some.end(), std::back_inserter(results));
     return results;
+}
+
+/// As all_results_of, where find(pair, k) returns a result or none.
+template <typename Result, typename Find>
+std::vector<Result> results_of(const Progress& progress, std::string_view stage,
+                               const std::vector<IndexPair>& pairs, const Find& find) {
+    return all_results_of<Result>(progress, stage, pairs,
+                                  [&](IndexPair pair, std::size_t k, std::vector<Result>& results) {
+                                      if (std::optional<Result> result = find(pair, k))
+                                          results.push_back(*result);
+                                  });
 }
 
 } // namespace
 
 World::World(WorldOptions options)
     : data_(std::make_unique<WorldData>(std::move(options))),
-      schedule_(std::make_unique<CollisionSchedule>(*data_)) {}
+      schedule_(std::make_unique<CollisionSchedule>(*data_)),
+      near_pairs_(std::make_unique<NearPairs>(*data_)) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
@@ -104,6 +120,22 @@ BodyId World::add(const Box3& box, const Pose& pose, const BodyOptions& options)
     return add_to(
         *data_, [&] { return shape_of(box); }, pose, options);
 }
+BodyId World::add(const Cylinder& cylinder, const Pose& pose, const BodyOptions& options) {
+    return add_to(
+        *data_, [&] { return shape_of(cylinder); }, pose, options);
+}
+BodyId World::add(const Cone& cone, const Pose& pose, const BodyOptions& options) {
+    return add_to(
+        *data_, [&] { return shape_of(cone); }, pose, options);
+}
+BodyId World::add(const Ellipsoid& ellipsoid, const Pose& pose, const BodyOptions& options) {
+    return add_to(
+        *data_, [&] { return shape_of(ellipsoid); }, pose, options);
+}
+BodyId World::add(const HalfSpace& half_space, const Pose& pose, const BodyOptions& options) {
+    return add_to(
+        *data_, [&] { return shape_of(half_space); }, pose, options);
+}
 BodyId World::add(const Deformable& surface, const BodyOptions& options) {
     return data_->add(shape_of(surface), {}, options);
 }
@@ -125,10 +157,12 @@ void World::remove(BodyId body) {
 void World::set_options(BodyId body, const BodyOptions& options) {
     data_->set_options(body, options);
     schedule_->forget();
+    near_pairs_->forget();
 }
 void World::refilter() {
     data_->refilter();
     schedule_->forget();
+    near_pairs_->forget();
 }
 
 bool World::is_valid(BodyId body) const noexcept {
@@ -160,10 +194,11 @@ std::vector<BodyPair> World::ended() const {
 
 std::vector<BodyPair> World::collide(const Progress& progress) {
     data_->update_if_changed();
+    std::vector<PairWarmStart>& warm_starts = data_->warm_starts();
     return results_of<BodyPair>(
         progress, "touching", data_->broad_phase().pairs(),
         [&](IndexPair pair, std::size_t k) -> std::optional<BodyPair> {
-            if (!touch(data_->placed(pair.a()), data_->placed(pair.b()), data_->warm_starts()[k]))
+            if (!touch(data_->placed(pair.a()), data_->placed(pair.b()), warm_starts[k]))
                 return std::nullopt;
             return data_->ids_of(pair);
         });
@@ -171,11 +206,12 @@ std::vector<BodyPair> World::collide(const Progress& progress) {
 
 std::vector<BodyGap> World::penetration(const Progress& progress) {
     data_->update_if_changed();
+    std::vector<PairWarmStart>& warm_starts = data_->warm_starts();
     return results_of<BodyGap>(
         progress, "contacts", data_->broad_phase().pairs(),
         [&](IndexPair pair, std::size_t k) -> std::optional<BodyGap> {
             const PlacedBody a = data_->placed(pair.a()), b = data_->placed(pair.b());
-            PairWarmStart& warm_start = data_->warm_starts()[k];
+            PairWarmStart& warm_start = warm_starts[k];
             // For two convex bodies, the gap alone tells whether they touch.
             const bool both_convex = is_convex(a.shape) && is_convex(b.shape);
             if (!both_convex && !touch(a, b, warm_start))
@@ -205,6 +241,20 @@ std::vector<BodyGap> World::within(double distance, const Progress& progress) {
                 return std::nullopt;
             std::tie(gap.a, gap.b) = std::pair(data_->id_of(pair.a()), data_->id_of(pair.b()));
             return gap;
+        });
+}
+
+std::vector<ContactManifold> World::contact_manifolds(double margin, const Progress& progress) {
+    require(margin >= 0 && margin < HUGE_VAL, "margin must be a length, not negative");
+    data_->update_if_changed();
+    if (margin > 0)
+        near_pairs_->update(margin);
+    auto& warm_starts = margin > 0 ? near_pairs_->warm_starts() : data_->warm_starts();
+    return all_results_of<ContactManifold>(
+        progress, "contacts", margin > 0 ? near_pairs_->pairs() : data_->broad_phase().pairs(),
+        [&](IndexPair pair, std::size_t k, std::vector<ContactManifold>& manifolds) {
+            append_contacts(data_->placed(pair.a()), data_->placed(pair.b()), data_->ids_of(pair),
+                            margin, warm_starts[k], manifolds);
         });
 }
 

@@ -134,8 +134,16 @@ public:
             return quick([&](World& world) { return world.add(*capsule, place, options); });
         if (const auto* box = peek<Box3>(shape))
             return quick([&](World& world) { return world.add(*box, place, options); });
-        throw py::type_error(
-            "shape: a Model, Convex, Sphere, Capsule, Box3 or Deformable is wanted");
+        if (const auto* cylinder = peek<Cylinder>(shape))
+            return quick([&](World& world) { return world.add(*cylinder, place, options); });
+        if (const auto* cone = peek<Cone>(shape))
+            return quick([&](World& world) { return world.add(*cone, place, options); });
+        if (const auto* ellipsoid = peek<Ellipsoid>(shape))
+            return quick([&](World& world) { return world.add(*ellipsoid, place, options); });
+        if (const auto* half_space = peek<HalfSpace>(shape))
+            return quick([&](World& world) { return world.add(*half_space, place, options); });
+        throw py::type_error("shape: a Model, Convex, Sphere, Capsule, Box3, Cylinder, Cone, "
+                             "Ellipsoid, HalfSpace or Deformable is wanted");
     }
     void move(const py::object& body, const py::object& pose) {
         if (!is_array(body) || py::reinterpret_borrow<py::array>(body).ndim() == 0) {

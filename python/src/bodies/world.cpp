@@ -3,9 +3,18 @@
 #include "bodies/bodies.h"
 #include "module.h"
 
+#include <array>
 #include <limits>
 
 namespace abut::python {
+
+/// The points of a manifold as a field of four records.
+template <>
+struct FieldFormat<std::array<ContactPoint, 4>> {
+    static py::object make() {
+        return py::make_tuple(record_type<ContactPoint>().dtype, py::make_tuple(4));
+    }
+};
 
 namespace {
 
@@ -48,6 +57,25 @@ void bind_world_results(py::module_& module) {
         .field("status", &BodyGap::status,
                "Status; bound_only: they go at least so deep into each other")
         .done();
+    RecordBinder<ContactPoint>(module, "ContactPoint", "A point of a ContactManifold.")
+        .field("point_a", &ContactPoint::point_a, "on a")
+        .field("point_b", &ContactPoint::point_b, "on b")
+        .field("depth", &ContactPoint::depth, "length along the normal; negative: a gap")
+        .field("feature", &ContactPoint::feature,
+               "names the two features that make the point; stays while they do")
+        .done();
+    RecordBinder<ContactManifold>(module, "ContactManifold",
+                                  "A region where two bodies are in contact, world frame.")
+        .field("a", &ContactManifold::a, "body")
+        .field("b", &ContactManifold::b, "body")
+        .field("normal", &ContactManifold::normal, "unit vector from a to b")
+        .field("region", &ContactManifold::region,
+               "names the contact region of this pair; 0 for convex bodies")
+        .field("count", &ContactManifold::count, "of the points that are set")
+        .field("points", &ContactManifold::points, "list of ContactPoint: four, the deepest first")
+        .field("status", &ContactManifold::status,
+               "Status; bound_only: bodies that meet are at least this deep in each other")
+        .done();
     RecordBinder<BodyImpact>(module, "BodyImpact", "A pair of bodies that meet in a step.")
         .field("a", &BodyImpact::a, "body")
         .field("b", &BodyImpact::b, "body")
@@ -80,7 +108,7 @@ py::class_<Bodies> world_class(py::module_& module) {
                "Many bodies that move: which of them meet, how near they are, when they may meet. "
                "A model "
                "is its surface;\n"
-               "Convex, Sphere, Capsule and Box3 are solid. A world keeps its models and "
+               "all other shapes are solid. A world keeps its models and "
                "deformables "
                "alive.\n\n"
                "A body is an int; it is valid until the body is removed, and then never again.\n\n"
@@ -106,8 +134,9 @@ py::class_<Bodies> world_class(py::module_& module) {
             },
             py::arg("shape"), py::arg("pose") = py::none(), py::kw_only(),
             py::arg("is_static") = false, py::arg("groups") = 1U, py::arg("mask") = ~0U,
-            "Adds a Model, Convex, Sphere, Capsule, Box3 or Deformable; returns its body, an "
-            "int.\n\n"
+            "Adds a Model, Convex, Sphere, Capsule, Box3, Cylinder, Cone, Ellipsoid, HalfSpace or "
+            "Deformable;\n"
+            "returns its body, an int.\n\n"
             "pose       rigid: a matrix of shape (4, 4), (translation, quaternion) or a Pose; none "
             "for a Deformable\n"
             "is_static  static bodies do not meet each other\n"
@@ -241,6 +270,20 @@ void add_world_queries(py::class_<Bodies>& type) {
             "         deformables move as their steps say");
 }
 
+void add_world_contacts(py::class_<Bodies>& type) {
+    type.def(
+        "contact_manifolds",
+        [](Bodies& self, double margin, const py::object& report) {
+            return records(self.query(report, [&](World& world, const Progress& progress) {
+                return world.contact_manifolds(margin, progress);
+            }));
+        },
+        py::arg("margin") = 0.0, py::kw_only(), py::arg("progress") = py::none(),
+        "The contacts of all pairs at most `margin` apart, a length: for each region a normal "
+        "and up to four points. A\n"
+        "record array of ContactManifold. Error (bad_argument) if the margin is negative.");
+}
+
 void add_world_schedule(py::class_<Bodies>& type) {
     type.def(
             "set_speed",
@@ -325,6 +368,7 @@ void bind_world(py::module_& module) {
     add_world_state(world);
     add_world_pairs(world);
     add_world_queries(world);
+    add_world_contacts(world);
     add_world_schedule(world);
     add_world_estimates(world);
 }

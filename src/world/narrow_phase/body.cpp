@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace abut {
 
@@ -52,6 +53,61 @@ Box3 bounds_of_convex(const ConvexData& convex, const Transform& world_from_body
     return {box.lower - error, box.upper + error};
 }
 
+/// The points that are farthest along the axes. The box is tight.
+Box3 bounds_of_support(const SupportShape& shape) {
+    Box3 box;
+    for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
+        for (const Vec3& direction : {axis, -axis})
+            extend(box, shape.centre + farthest(shape, direction));
+    return grown(box, 8 * kBoxRounding * (max_abs(shape.centre) + shape.reach));
+}
+
+/// Everything, but for the far side of a plane that is exactly across an axis.
+Box3 bounds_of_plane(const PlaneShape& plane) {
+    constexpr double kAll = std::numeric_limits<double>::infinity();
+    const double margin = 8 * kBoxRounding * max_abs(plane.point);
+    Box3 box{{-kAll, -kAll, -kAll}, {kAll, kAll, kAll}};
+    const auto cut = [&](double n, double other, double another, double at, double& lower,
+                         double& upper) {
+        if (n == 0 || other != 0 || another != 0)
+            return;
+        if (n > 0)
+            upper = at + margin;
+        else
+            lower = at - margin;
+    };
+    const auto& [x, y, z] = plane.normal;
+    cut(x, y, z, plane.point.x, box.lower.x, box.upper.x);
+    cut(y, z, x, plane.point.y, box.lower.y, box.upper.y);
+    cut(z, x, y, plane.point.z, box.lower.z, box.upper.z);
+    return box;
+}
+
+/// The axes of a frame whose third axis is along a segment.
+std::array<Vec3, 3> axes_along(const Vec3& way, double length_of_way) {
+    const Vec3 z = (1 / length_of_way) * way, x = perpendicular(z);
+    return {x, cross(z, x), z};
+}
+
+/// A cylinder or cone from its base to its top.
+CurvedShape round_shape(CoreKind kind, const Segment& axis, double radius) {
+    require_point(axis.a, "an end of the axis");
+    require_point(axis.b, "an end of the axis");
+    require(radius >= 0 && radius <= kLargestCoordinate,
+            "radius must not be negative, nor beyond 1e18");
+    CurvedShape shape;
+    SupportShape& solid = shape.solid;
+    solid.kind = kind;
+    solid.centre = 0.5 * axis.a + 0.5 * axis.b;
+    const Vec3 half = 0.5 * axis.b - 0.5 * axis.a;
+    solid.half = {radius, radius, length(half)};
+    require(solid.half[2] > 0 || radius == 0, "its ends are equal, so its axis has no direction");
+    if (solid.half[2] > 0)
+        solid.axis = axes_along(half, solid.half[2]);
+    solid.reach = std::sqrt(radius * radius + length_sq(half)) * (1 + kBoxRounding);
+    return shape;
+}
+
 Box3 bounds_of_deformable(const Deformable& surface) {
     Box3 box;
     for (const MovingVertex& vertex : surface.data().vertices)
@@ -67,7 +123,7 @@ const Model& Snapshot::model() const {
 }
 
 BodyShape shape_of(const Convex& convex) {
-    return ConvexShape{convex, Model(convex.mesh())};
+    return ConvexShape{convex, Model(convex.mesh()), std::make_shared<const FaceTable>(convex)};
 }
 
 BodyShape shape_of(const Sphere& sphere) {
@@ -103,6 +159,40 @@ BodyShape shape_of(const Box3& box) {
     return rounded;
 }
 
+BodyShape shape_of(const Cylinder& cylinder) {
+    return round_shape(CoreKind::cylinder, cylinder.axis, cylinder.radius);
+}
+
+BodyShape shape_of(const Cone& cone) {
+    return round_shape(CoreKind::cone, {cone.base, cone.apex}, cone.radius);
+}
+
+BodyShape shape_of(const Ellipsoid& ellipsoid) {
+    require_point(ellipsoid.centre, "centre of the ellipsoid");
+    const auto& [a, b, c] = ellipsoid.semi_axes;
+    for (const double semi_axis : {a, b, c})
+        require(semi_axis >= 0 && semi_axis <= kLargestCoordinate,
+                "a semi-axis of the ellipsoid must not be negative, nor beyond 1e18");
+    CurvedShape shape;
+    shape.solid.kind = CoreKind::ellipsoid;
+    shape.solid.centre = ellipsoid.centre;
+    shape.solid.half = {a, b, c};
+    shape.solid.reach = max_abs(ellipsoid.semi_axes);
+    return shape;
+}
+
+BodyShape shape_of(const HalfSpace& half_space) {
+    require(is_finite(half_space.normal), "normal of the half-space is not finite");
+    const double size = max_abs(half_space.normal);
+    require(size > 0, "normal of the half-space is zero");
+    const Vec3 scaled_normal = (1 / size) * half_space.normal;
+    require(is_finite(scaled_normal), "normal of the half-space is too short");
+    const double stretch = length(scaled_normal), offset = half_space.offset / size / stretch;
+    require(std::abs(offset) <= kLargestCoordinate, "plane of the half-space is beyond 1e18");
+    const Vec3 normal = (1 / stretch) * scaled_normal;
+    return PlaneShape{offset * normal, normal};
+}
+
 BodyShape shape_of(const Deformable& surface) {
     return DeformableShape{&surface, std::make_shared<const Snapshot>(surface)};
 }
@@ -115,7 +205,23 @@ RoundedBox placed(const RoundedBox& box, const Transform& world_from_body) {
     return result;
 }
 
+SupportShape placed(const CurvedShape& curved, const Transform& world_from_body) {
+    SupportShape result = curved.solid;
+    result.centre = apply(world_from_body, result.centre);
+    for (Vec3& axis : result.axis)
+        axis = apply_linear(world_from_body, axis);
+    return result;
+}
+
+PlaneShape placed(const PlaneShape& plane, const Transform& world_from_body) {
+    return {apply(world_from_body, plane.point), apply_linear(world_from_body, plane.normal)};
+}
+
 Box3 bounds_of(const BodyShape& shape) {
+    if (const auto* curved = std::get_if<CurvedShape>(&shape))
+        return bounds_of_support(curved->solid);
+    if (const auto* plane = std::get_if<PlaneShape>(&shape))
+        return bounds_of_plane(*plane);
     if (const auto* box = std::get_if<RoundedBox>(&shape))
         return bounds_of_rounded(*box);
     if (const auto* deformable = std::get_if<DeformableShape>(&shape))
@@ -138,6 +244,10 @@ Box3 bounds_of(const BodyShape& shape, const Box3& own_bounds, const Transform& 
         return bounds_of_rounded(placed(*box, world_from_body));
     if (const auto* convex = std::get_if<ConvexShape>(&shape))
         return bounds_of_convex(convex->solid.data(), world_from_body);
+    if (const auto* curved = std::get_if<CurvedShape>(&shape))
+        return bounds_of_support(placed(*curved, world_from_body));
+    if (const auto* plane = std::get_if<PlaneShape>(&shape))
+        return bounds_of_plane(placed(*plane, world_from_body));
     if (is_empty(own_bounds) || is_deformable(shape))
         return own_bounds;
     return placed_bounds(own_bounds, world_from_body);
@@ -164,6 +274,10 @@ double reach_from(const BodyShape& shape, const Box3& own_bounds, const Vec3& po
         return (length(box->centre - point) + length({box->half[0], box->half[1], box->half[2]}) +
                 box->radius) *
                (1 + kBoxRounding);
+    if (const auto* curved = std::get_if<CurvedShape>(&shape))
+        return (length(curved->solid.centre - point) + curved->solid.reach) * (1 + kBoxRounding);
+    if (is_half_space(shape))
+        return std::numeric_limits<double>::infinity();
     if (is_empty(own_bounds))
         return 0;
     return length(max(absolute(own_bounds.lower - point), absolute(own_bounds.upper - point))) *

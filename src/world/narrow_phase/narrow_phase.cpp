@@ -2,17 +2,19 @@
 
 #include <abut/shape_queries.h>
 
+#include "convex/support/support_gap.h"
 #include "math/transform.h"
 #include "rigid/model/model_data.h"
 #include "rigid/solid/containment.h"
 #include "world/narrow_phase/offset_surface.h"
+#include "world/narrow_phase/solid_gap.h"
 
 #include <algorithm>
 #include <cmath>
 
 // The table of shape pairs: an overload of `meet` and of `measure` for each pair of kinds. Surfaces
-// come before convex bodies, and these before rounded boxes. For the opposite order, the result is
-// swapped. A deformable counts as a model here.
+// come before convex bodies, these before rounded boxes, then curved shapes and half-spaces. For the
+// opposite order, the result is swapped. A deformable counts as a model here.
 namespace abut {
 
 namespace {
@@ -25,6 +27,18 @@ struct Placed {
 using PlacedSurface = Placed<Model>;
 using PlacedConvex = Placed<ConvexShape>;
 using PlacedRounded = Placed<RoundedBox>;
+using PlacedCurved = Placed<CurvedShape>;
+using PlacedPlane = Placed<PlaneShape>;
+
+SupportShape support_of(const PlacedConvex& convex) {
+    return support_of(convex.shape, convex.world);
+}
+SupportShape support_of(const PlacedRounded& box) {
+    return support_of(placed(box.shape, box.world));
+}
+SupportShape support_of(const PlacedCurved& curved) {
+    return placed(curved.shape, curved.world);
+}
 
 int dimension(const RoundedBox& box) {
     return static_cast<int>(3 - std::count(box.half.begin(), box.half.end(), 0.0));
@@ -243,6 +257,45 @@ BodyGap measure(const PlacedRounded& a, const PlacedRounded& b, double upper_bou
     return result;
 }
 
+/// A curved shape with a surface, and with a solid of any kind but a half-space.
+bool meet(const PlacedSurface& a, const PlacedCurved& b, PairWarmStart& warm_start) {
+    return surface_meets(a.shape, a.world, support_of(b), warm_start.direction);
+}
+template <typename Solid>
+bool meet(const Placed<Solid>& a, const PlacedCurved& b, PairWarmStart& warm_start) {
+    return supports_meet(support_of(a), support_of(b), warm_start.direction);
+}
+BodyGap measure(const PlacedSurface& a, const PlacedCurved& b, double upper_bound, Depths depths,
+                PairWarmStart& warm_start) {
+    return surface_gap(a.shape, a.world, support_of(b), upper_bound, depths, warm_start.direction);
+}
+template <typename Solid>
+BodyGap measure(const Placed<Solid>& a, const PlacedCurved& b, double upper_bound,
+                Depths /*depths*/, PairWarmStart& warm_start) {
+    return solid_gap(support_of(a), support_of(b), upper_bound, warm_start.direction);
+}
+
+/// A half-space with anything.
+BodyGap gap_of_plane(const PlacedSurface& a, const PlacedPlane& b) {
+    return surface_gap(a.shape, a.world, placed(b.shape, b.world));
+}
+BodyGap gap_of_plane(const PlacedPlane& a, const PlacedPlane& b) {
+    return solid_gap(placed(a.shape, a.world), placed(b.shape, b.world));
+}
+template <typename Solid>
+BodyGap gap_of_plane(const Placed<Solid>& a, const PlacedPlane& b) {
+    return solid_gap(support_of(a), placed(b.shape, b.world));
+}
+template <typename Shape>
+bool meet(const Placed<Shape>& a, const PlacedPlane& b, PairWarmStart& /*warm_start*/) {
+    return gap_of_plane(a, b).distance <= 0;
+}
+template <typename Shape>
+BodyGap measure(const Placed<Shape>& a, const PlacedPlane& b, double /*upper_bound*/,
+                Depths /*depths*/, PairWarmStart& /*warm_start*/) {
+    return gap_of_plane(a, b);
+}
+
 BodyGap turned_round(const BodyGap& gap) {
     return {gap.b,       gap.a,          gap.distance,   gap.point_b, gap.point_a,
             -gap.normal, gap.triangle_b, gap.triangle_a, gap.status};
@@ -260,12 +313,20 @@ const ConvexShape& surface_of(const ConvexShape& convex) {
 const RoundedBox& surface_of(const RoundedBox& box) {
     return box;
 }
+const CurvedShape& surface_of(const CurvedShape& curved) {
+    return curved;
+}
+const PlaneShape& surface_of(const PlaneShape& plane) {
+    return plane;
+}
 
 /// Position of a kind of shape in the table's order.
 template <typename Kind>
 constexpr int kRank = std::is_same_v<Kind, Model>         ? 0
                       : std::is_same_v<Kind, ConvexShape> ? 1
-                                                          : 2;
+                      : std::is_same_v<Kind, RoundedBox>  ? 2
+                      : std::is_same_v<Kind, CurvedShape> ? 3
+                                                          : 4;
 
 /// Calls query(a, b) with the shapes in the table's order. If that swaps them, returns
 /// turn(result).

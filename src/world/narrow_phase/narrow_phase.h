@@ -16,6 +16,7 @@ struct PlacedBody {
 struct PairWarmStart {
     WarmStart surfaces;
     ConvexWarmStart solids;
+    Vec3 direction; ///< from a to b in the table's order; zero: none is known
 };
 
 /// Whether two bodies share a point.
@@ -35,7 +36,7 @@ BodyGap gap_between(const PlacedBody& a, const PlacedBody& b, double upper_bound
 
 /// Whether the kind of shape is convex. Models count as not convex.
 inline bool is_convex(const BodyShape& shape) {
-    return std::holds_alternative<RoundedBox>(shape) || std::holds_alternative<ConvexShape>(shape);
+    return !std::holds_alternative<Model>(shape) && !is_deformable(shape);
 }
 
 } // namespace abut

@@ -17,9 +17,11 @@ struct OffsetSurface {
 /// The surface of a body, as an offset surface. A ball is its centre and a capsule its axis, each
 /// as a triangle without area. The deep inside of a solid is not included.
 ///
-/// In          no deformable.
+/// In          no deformable and no half-space.
 OffsetSurface offset_surface_of(const BodyShape& shape);
 OffsetSurface offset_surface_of(const RoundedBox& box);
+/// A polyhedron around the shape, whose radii are at most 0.5 % larger.
+OffsetSurface offset_surface_of(const CurvedShape& curved);
 
 /// The surface of the cube from -1 to 1 along all axes.
 const Model& unit_cube();

@@ -113,13 +113,24 @@ void WorldData::fit_box(std::uint32_t index) {
 
 void WorldData::update() {
     broad_phase_.update(boxes_, changed_);
-    carry_over(warm_starts_, broad_phase_, PairWarmStart());
+    pair_changes_.add(broad_phase_.begun(), broad_phase_.ended());
+    // Without a query the changes would pile up.
+    if (pair_changes_.size() > warm_starts_.size())
+        static_cast<void>(warm_starts());
     for (const std::uint32_t index : changed_)
         is_changed_[index] = 0;
     changed_.clear();
     refiltered_ = false;
     free_.insert(free_.end(), ended_.begin(), ended_.end());
     ended_ = std::exchange(removed_, {});
+}
+
+std::vector<PairWarmStart>& WorldData::warm_starts() {
+    if (!pair_changes_.empty()) {
+        apply(pair_changes_.settle(), broad_phase_.pairs(), warm_starts_);
+        pair_changes_.clear();
+    }
+    return warm_starts_;
 }
 
 void WorldData::update_if_changed() {

@@ -2,6 +2,7 @@
 
 #include <abut/world.h>
 
+#include "world/broad_phase/pair_changes.h"
 #include "world/narrow_phase/body.h"
 #include "world/narrow_phase/narrow_phase.h"
 
@@ -51,7 +52,8 @@ public:
     [[nodiscard]] const std::vector<Box3>& boxes() const { return boxes_; }
     [[nodiscard]] const BroadPhase& broad_phase() const { return broad_phase_; }
     /// A warm start for each pair of `broad_phase().pairs()`.
-    [[nodiscard]] std::vector<PairWarmStart>& warm_starts() { return warm_starts_; }
+    /// Brings them up to date, so call it before the pairs are handed to threads.
+    [[nodiscard]] std::vector<PairWarmStart>& warm_starts();
 
     [[nodiscard]] PlacedBody placed(std::uint32_t index) const {
         return {bodies_[index].shape, bodies_[index].world_from_body};
@@ -82,30 +84,8 @@ private:
     bool refiltered_ = false; ///< whether filters changed since the last update
     std::size_t alive_ = 0;
     BroadPhase broad_phase_;
-    std::vector<PairWarmStart> warm_starts_;
+    std::vector<PairWarmStart> warm_starts_; ///< of the pairs before `pair_changes_`
+    PairChanges pair_changes_;
 };
-
-/// Carries a value for each pair over an update of the broad phase. Values of new pairs are
-/// `fresh`.
-template <typename Value>
-void carry_over(std::vector<Value>& values, const BroadPhase& phase, const Value& fresh) {
-    const std::vector<IndexPair>&begun = phase.begun(), &ended = phase.ended();
-    if (begun.empty() && ended.empty())
-        return;
-    std::vector<Value> last = std::exchange(values, {});
-    values.reserve(phase.pairs().size());
-    auto next_begun = begun.begin(), next_ended = ended.begin();
-    std::size_t next = 0; // in `last`
-    for (const IndexPair pair : phase.pairs()) {
-        for (; next_ended != ended.end() && *next_ended < pair; ++next_ended)
-            ++next;
-        if (next_begun != begun.end() && *next_begun == pair) {
-            values.push_back(fresh);
-            ++next_begun;
-        } else {
-            values.push_back(std::move(last[next++]));
-        }
-    }
-}
 
 } // namespace abut

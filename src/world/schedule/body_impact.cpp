@@ -1,13 +1,16 @@
 #include "world/schedule/body_impact.h"
 
+#include "convex/support/support_gap.h"
 #include "math/transform.h"
 #include "rigid/motion/impact_steps.h"
 #include "rigid/motion/motion_bounds.h"
 #include "world/narrow_phase/narrow_phase.h"
+#include "world/narrow_phase/solid_gap.h"
 #include "world/schedule/deforming_impact.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace abut {
 
@@ -19,19 +22,46 @@ double reach_of(const MovingBody& body) {
     return reach_from(body.shape, body.own_bounds, apply(inverse(start), body.motion.centre));
 }
 
-/// Rounding error of a distance or a time, relative to the quantities it was computed from.
+/// Rounding error of a distance or a time, relative to the quantities it was computed from. Searches
+/// with curved shapes end with a larger one.
 constexpr double kRounding = 0x1p-44;
+constexpr double kCurvedRounding = 0x1p-38;
+
+bool is_curved(const MovingBody& body) {
+    return std::holds_alternative<CurvedShape>(body.shape);
+}
+
+bool turns(const MovingBody& body) {
+    return body.motion.angular_velocity != Vec3{};
+}
+
+/// The largest distance of the two motions' centres, which is at the start or at the end.
+double farthest_centres(const Motion& a, const Motion& b) {
+    const Vec3 start = b.centre - a.centre;
+    return std::max(length(start), length(start + b.velocity - a.velocity));
+}
 
 class Advancement {
 public:
     Advancement(const MovingBody& a, const MovingBody& b, const ImpactOptions& options)
         : a_(a), b_(b), options_(options), reach_a_(reach_of(a)), reach_b_(reach_of(b)),
-          convex_(is_convex(a.shape) && is_convex(b.shape)) {
+          plane_a_(is_half_space(a.shape)), plane_b_(is_half_space(b.shape)),
+          is_any_curved_(is_curved(a) || is_curved(b)),
+          turning_plane_((plane_a_ && turns(a)) || (plane_b_ && turns(b))),
+          along_normal_(!turning_plane_ &&
+                        (plane_a_ || plane_b_ || (is_convex(a.shape) && is_convex(b.shape)))) {
+        const double plane_size = limit_planes();
         const double size = std::max(reach_a_, reach_b_);
         scale_ = size + max_abs(a.motion.centre) + max_abs(b.motion.centre) +
-                 max_abs(a.motion.velocity) + max_abs(b.motion.velocity);
-        asked_tolerance_ = options.absolute_error.value_or(kImpactTolerance * size);
-        tolerance_ = std::max(asked_tolerance_, 4 * kRounding * scale_);
+                 max_abs(a.motion.velocity) + max_abs(b.motion.velocity) + plane_size;
+        // The reach of a half-space is that of its motion's lever, and no size of a body.
+        const double own = plane_a_ && plane_b_ ? size
+                           : plane_a_           ? reach_b_
+                           : plane_b_           ? reach_a_
+                                                : size;
+        asked_tolerance_ = options.absolute_error.value_or(kImpactTolerance * own);
+        error_ = (is_any_curved_ ? kCurvedRounding : kRounding) * scale_;
+        tolerance_ = std::max(asked_tolerance_, 4 * error_);
     }
 
     Impact run() const {
@@ -43,20 +73,59 @@ public:
     }
 
 private:
+    /// A length that is free, and a bound of the speed at which it shrinks.
+    struct Approach {
+        double free = 0, speed = 0;
+        [[nodiscard]] double time() const { return free / speed; }
+    };
+
+    /// Replaces the reach of a half-space by that of the part of its plane that the other body can
+    /// be near. Returns a bound of the coordinates of the planes.
+    double limit_planes() {
+        if (!plane_a_ && !plane_b_)
+            return 0;
+        const double other = plane_a_ && plane_b_ ? 0 : plane_a_ ? reach_b_ : reach_a_;
+        const double lever = farthest_centres(a_.motion, b_.motion) + other;
+        if (plane_a_)
+            reach_a_ = lever;
+        if (plane_b_)
+            reach_b_ = lever;
+        double size = lever;
+        for (const MovingBody* body : {&a_, &b_})
+            if (const auto* plane = std::get_if<PlaneShape>(&body->shape))
+                size += max_abs(plane->point) + max_abs(body->motion.start.translation);
+        return size;
+    }
+
     [[nodiscard]] Impact search(ImpactSteps& steps, std::uint64_t most_steps) const {
         double time = 0;
         BodyGap gap = gap_at(0);
         while (steps.count() < most_steps) {
             if (!steps.take(time))
                 return out_of_steps(time);
-            if (gap.distance <= tolerance_)
+            const double apart = along_normal_ ? gap_along_normal(time, gap) : 0;
+            // A search for the distance of curved shapes may end before it is proven.
+            const double proven =
+                along_normal_ && is_any_curved_ ? std::min(gap.distance, apart) : gap.distance;
+            if (proven <= tolerance_)
                 return hit(time, gap);
-            const double speed = closing_speed(gap);
-            const double free = gap.distance - kRounding * scale_;
-            if (speed <= 0 || time + free / speed > 1)
+            if (plane_a_ && plane_b_ && turning_plane_)
+                break; // they meet far away
+            const Approach fast{proven - error_, fastest_approach()};
+            Approach best = fast;
+            if (along_normal_) {
+                const Approach along{apart - kRounding * scale_, closing_speed(gap)};
+                if (along.free > 0 && along.speed <= 0)
+                    return miss();
+                if (along.free > 0 && along.time() > fast.time())
+                    best = along;
+            }
+            if (time + best.time() > 1)
                 return miss();
             // Stops short by half of the tolerance, so that the reported time is before contact.
-            time += (free - 0.5 * tolerance_) / speed * (1 - kRounding);
+            best.free -= 0.5 * tolerance_;
+            time += std::max(best.time(), fast.time() - 0.5 * tolerance_ / fast.speed) *
+                    (1 - kRounding);
             gap = gap_at(time);
         }
         Impact impact = hit(time, gap);
@@ -71,17 +140,29 @@ private:
                            warm_start);
     }
 
-    /// Upper bound of the speed at which points of the two bodies approach each other. For two
-    /// convex bodies only the speed along the gap counts, since neither reaches beyond its plane
-    /// across the gap.
+    /// Upper bound of the speed at which points of the two bodies approach each other.
+    [[nodiscard]] double fastest_approach() const {
+        return length(a_.motion.velocity - b_.motion.velocity) +
+               reach_a_ * length(a_.motion.angular_velocity) +
+               reach_b_ * length(b_.motion.angular_velocity) + kRounding * scale_;
+    }
+    /// The same for points on planes across the normal of the gap.
     [[nodiscard]] double closing_speed(const BodyGap& gap) const {
-        const Vec3 relative = a_.motion.velocity - b_.motion.velocity;
-        const Vec3 &turn_a = a_.motion.angular_velocity, &turn_b = b_.motion.angular_velocity;
-        const double speed =
-            convex_ ? dot(relative, gap.normal) + reach_a_ * length(cross(turn_a, gap.normal)) +
-                          reach_b_ * length(cross(turn_b, gap.normal))
-                    : length(relative) + reach_a_ * length(turn_a) + reach_b_ * length(turn_b);
-        return speed + kRounding * scale_;
+        if (!along_normal_)
+            return fastest_approach();
+        return dot(a_.motion.velocity - b_.motion.velocity, gap.normal) +
+               reach_a_ * length(cross(a_.motion.angular_velocity, gap.normal)) +
+               reach_b_ * length(cross(b_.motion.angular_velocity, gap.normal)) +
+               kRounding * scale_;
+    }
+    /// The distance of the planes across the normal of the gap that touch the bodies. It is less
+    /// than the gap: the shorter the gap, the more rounding tilts its normal.
+    [[nodiscard]] double gap_along_normal(double time, const BodyGap& gap) const {
+        const Transform world_a = at(a_.motion, time), world_b = at(b_.motion, time);
+        const auto solid_a = support_of(PlacedBody{a_.shape, world_a}),
+                   solid_b = support_of(PlacedBody{b_.shape, world_b});
+        return solid_a && solid_b ? separation_along(*solid_a, *solid_b, gap.normal)
+                                  : gap.distance; // one is a half-space
     }
 
     [[nodiscard]] static Impact miss() { return {}; }
@@ -109,8 +190,10 @@ private:
     const MovingBody &a_, &b_;
     const ImpactOptions& options_;
     double reach_a_, reach_b_;
-    bool convex_;
-    double scale_ = 0; ///< magnitude of the coordinates
+    bool plane_a_, plane_b_, is_any_curved_, turning_plane_;
+    bool along_normal_; ///< whether planes across the normal of a gap separate the bodies
+    double scale_ = 0;  ///< magnitude of the coordinates
+    double error_ = 0;  ///< of a distance
     double asked_tolerance_ = 0, tolerance_ = 0;
 };
 
@@ -125,6 +208,14 @@ Box3 swept_bounds(const MovingBody& body) {
     const Box3 box = bounds_of(body.shape, body.own_bounds, start);
     if (is_empty(box))
         return box;
+    if (is_half_space(body.shape)) {
+        constexpr double kAll = std::numeric_limits<double>::infinity();
+        if (turns(body))
+            return {{-kAll, -kAll, -kAll}, {kAll, kAll, kAll}};
+        const Vec3& way = body.motion.velocity;
+        const double by = kRounding * (max_abs(body.motion.centre) + max_abs(way));
+        return grown(Box3{min(box.lower, box.lower + way), max(box.upper, box.upper + way)}, by);
+    }
     if (is_deformable(body.shape)) // its box encloses the step except for rounding
         return grown(box, kRounding * (max_abs(box.lower) + max_abs(box.upper)));
     const double reach = reach_of(body);

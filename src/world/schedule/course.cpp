@@ -23,15 +23,26 @@ Vec3 way_after(const Vec3& velocity, const Vec3& acceleration, double t) {
     return t * velocity + (0.5 * t * t) * acceleration;
 }
 
-/// v, rotated by |turn| radians about turn.
-Vec3 rotated(const Vec3& v, const Vec3& turn) {
-    const double angle = length(turn);
-    if (angle == 0)
-        return v;
-    const Vec3 axis = (1 / angle) * turn;
-    const double s = std::sin(angle), half = std::sin(0.5 * angle);
-    return v + s * cross(axis, v) + (2 * half * half) * cross(axis, cross(axis, v));
-}
+/// A rotation by |turn| radians about turn.
+class Rotation {
+public:
+    explicit Rotation(const Vec3& turn) {
+        const double angle = length(turn);
+        if (angle == 0)
+            return;
+        axis_ = (1 / angle) * turn;
+        const double half = std::sin(0.5 * angle);
+        sine_ = std::sin(angle), versine_ = 2 * half * half;
+    }
+    [[nodiscard]] Vec3 operator()(const Vec3& v) const {
+        const Vec3 across = cross(axis_, v);
+        return v + sine_ * across + versine_ * cross(axis_, across);
+    }
+
+private:
+    Vec3 axis_;
+    double sine_ = 0, versine_ = 0;
+};
 
 /// Whether the body's axes are the earlier ones, turned by `turn` and by at most `most` radians more.
 /// A rotation by an angle x changes the three columns of a rotation by 2 sqrt(2) sin(x / 2) together,
@@ -40,12 +51,12 @@ bool keeps_turn(const std::array<double, 9>& then, const Body& body, const Vec3&
                 double most) {
     const auto& now = body.world_from_body.m;
     const bool turns = turn != Vec3{};
+    const Rotation rotation(turn);
     double change_sq = 0;
     for (std::size_t i = 0; i < 9; i += 3) {
-        Vec3 column{then[i], then[i + 1], then[i + 2]};
-        if (turns)
-            column = rotated(column, turn);
-        change_sq += length_sq(Vec3{now[i], now[i + 1], now[i + 2]} - column);
+        const Vec3 column{then[i], then[i + 1], then[i + 2]};
+        change_sq +=
+            length_sq(Vec3{now[i], now[i + 1], now[i + 2]} - (turns ? rotation(column) : column));
     }
     return change_sq <= 2 * most * most;
 }
@@ -80,17 +91,23 @@ void begin_course(Course& course, const Body& body, double now) {
 bool keeps_course(const Course& course, const Body& body, double now) {
     const double t = now - course.since, seen = course.seen - course.since;
     const SpeedBounds& bounds = course.bounds;
-    const Vec3 is = origin_of(body), &was = course.seen_origin,
-               expected = course.origin + way_after(bounds.velocity, bounds.acceleration, t),
+    const Vec3 is = origin_of(body),
+               expected = course.origin + way_after(bounds.velocity, bounds.acceleration, t);
+    const double rounding = kOffCourse * (max_abs(is) + max_abs(expected));
+    const double most = most_way(course, 0, t), most_angle = most_turn(course, 0, t);
+    if (course.shape_version != body.shape_version ||
+        !(length_sq(is - expected) <= (most + rounding) * (most + rounding)) ||
+        !keeps_turn(course.linear, body, t * bounds.angular_velocity, most_angle + kOffTurn))
+        return false;
+    // A known motion allows only rounding, now and when the body was last seen. So the two tests
+    // imply what follows.
+    if (most == 0 && most_angle == 0)
+        return true;
+    const Vec3 &was = course.seen_origin,
                before = course.origin + way_after(bounds.velocity, bounds.acceleration, seen);
-    const double rounding = kOffCourse * (max_abs(is) + max_abs(expected)),
-                 earlier = kOffCourse * (max_abs(was) + max_abs(before));
-    const double most = most_way(course, 0, t) + rounding,
+    const double earlier = kOffCourse * (max_abs(was) + max_abs(before)),
                  most_step = most_way(course, seen, t) + rounding + earlier;
-    return course.shape_version == body.shape_version && length_sq(is - expected) <= most * most &&
-           length_sq((is - was) - (expected - before)) <= most_step * most_step &&
-           keeps_turn(course.linear, body, t * bounds.angular_velocity,
-                      most_turn(course, 0, t) + kOffTurn) &&
+    return length_sq((is - was) - (expected - before)) <= most_step * most_step &&
            keeps_turn(course.seen_linear, body, (t - seen) * bounds.angular_velocity,
                       most_turn(course, seen, t) + 2 * kOffTurn);
 }
@@ -155,8 +172,13 @@ bool is_at_rest(const CourseNow& course) {
 }
 
 Box3 swept_box(const CourseNow& course, const Vec3& origin, const Box3& box, double span) {
+    const Vec3 all{kNoCollision, kNoCollision, kNoCollision};
+    const bool has_end = course.turn.reach < kNoCollision; // false: a half-space
     if (is_at_rest(course))
-        return grown(box, kScheduleRounding * (max_abs(origin) + course.turn.reach));
+        return grown(box,
+                     kScheduleRounding * (max_abs(origin) + (has_end ? course.turn.reach : 0)));
+    if (!has_end)
+        return {-all, all};
     const double acceleration = length(course.acceleration);
     const double most = length(course.velocity) + acceleration * span;
     // The path is a parabola. Between its ends, it deviates from the chord by at most the sagitta.
@@ -175,7 +197,6 @@ Box3 swept_box(const CourseNow& course, const Vec3& origin, const Box3& box, dou
     const Box3 swept{min(lower, lower + way) - margin, max(upper, upper + way) + margin};
     const bool is_box = swept.lower.x <= swept.upper.x && swept.lower.y <= swept.upper.y &&
                         swept.lower.z <= swept.upper.z;
-    const Vec3 all{kNoCollision, kNoCollision, kNoCollision};
     return is_box ? swept : Box3{-all, all}; // bounds so large that they overflow
 }
 

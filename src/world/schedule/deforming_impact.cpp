@@ -3,10 +3,14 @@
 #include <abut/deformable.h>
 
 #include "math/transform.h"
+#include "rigid/model/model_data.h"
 #include "rigid/motion/impact_steps.h"
 #include "rigid/motion/motion_bounds.h"
+#include "rigid/solid/containment.h"
 #include "world/narrow_phase/narrow_phase.h"
+#include "world/narrow_phase/offset_surface.h"
 #include "world/schedule/deforming_pair.h"
+#include "world/schedule/half_space_impact.h"
 #include "world/schedule/surface_impact.h"
 
 #include <algorithm>
@@ -271,6 +275,27 @@ std::optional<Impact> impact_at_start(const MovingBody& a, const MovingBody& b) 
     return impact;
 }
 
+/// The impact at the start of a surface of which a component lies in the polyhedron around a curved
+/// shape, outside of the shape. It may meet the shape without crossing the polyhedron's faces.
+std::optional<Impact> impact_in_polyhedron(const MovingBody& surface, const MovingBody& curved) {
+    const Model& model = std::get<DeformableShape>(surface.shape).snapshot->model();
+    const OffsetSurface around = offset_surface_of(curved.shape);
+    const Transform world_from_curved = curved.motion.start;
+    if (!any_component_inside(PlacedSolid(model, model.data().solid(), {}),
+                              PlacedSolid(around.surface, around.surface.data().solid(),
+                                          compose(world_from_curved, around.body_from_surface))))
+        return std::nullopt;
+    PairWarmStart warm_start;
+    const BodyGap gap = gap_between({surface.shape, {}}, {curved.shape, world_from_curved},
+                                    kNoContact, Depths::no, warm_start);
+    Impact impact;
+    impact.meet = true, impact.time = 0, impact.gap = std::max(gap.distance, 0.0);
+    impact.contact_time = kNoContact, impact.status = Status::bound_only;
+    impact.point_a = gap.point_a, impact.point_b = gap.point_b, impact.normal = gap.normal;
+    impact.triangle_a = gap.triangle_a;
+    return impact;
+}
+
 } // namespace
 
 Impact deforming_impact(const MovingBody& a, const MovingBody& b, const ImpactOptions& options) {
@@ -279,11 +304,21 @@ Impact deforming_impact(const MovingBody& a, const MovingBody& b, const ImpactOp
     const Deformable *surface_a = deformable_of(a), *surface_b = deformable_of(b);
     if (surface_a != nullptr && surface_b != nullptr)
         return surface_impact(*surface_a, *surface_b);
-    const auto with_rigid = [&](const Deformable& surface, const MovingBody& body) {
-        return DeformingSearch(DeformingPair(surface.data(), body), options).run();
+    const auto with_rigid = [&](const MovingBody& soft, const MovingBody& body) {
+        const Deformable& surface = *deformable_of(soft);
+        if (is_half_space(body.shape))
+            return half_space_impact(surface, body, options);
+        const bool is_curved = std::holds_alternative<CurvedShape>(body.shape);
+        if (is_curved)
+            if (const auto impact = impact_in_polyhedron(soft, body))
+                return *impact;
+        Impact impact = DeformingSearch(DeformingPair(surface.data(), body), options).run();
+        if (is_curved && impact.meet)
+            // The polyhedron around the shape was met, not the shape.
+            impact.contact_time = kNoContact, impact.status = Status::bound_only;
+        return impact;
     };
-    return surface_a != nullptr ? with_rigid(*surface_a, b)
-                                : turned_round(with_rigid(*surface_b, a));
+    return surface_a != nullptr ? with_rigid(a, b) : turned_round(with_rigid(b, a));
 }
 
 } // namespace abut

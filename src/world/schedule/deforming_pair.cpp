@@ -55,8 +55,9 @@ double farthest_from(const Vec3& centre, const Triangle& triangle) {
 
 DeformingPair::DeformingPair(const DeformableData& deformable, const MovingBody& body)
     : a_(deformable), b_(offset_surface_of(body.shape)),
-      is_model_(!std::holds_alternative<RoundedBox>(body.shape)), moving_(body.motion),
-      turning_(turning(body.motion)), velocity_(body.motion.velocity) {
+      is_model_(std::holds_alternative<Model>(body.shape) ||
+                std::holds_alternative<ConvexShape>(body.shape)),
+      moving_(body.motion), turning_(turning(body.motion)), velocity_(body.motion.velocity) {
     Box3 step;
     for (const MovingVertex& vertex : deformable.vertices)
         extend(step, vertex.start), extend(step, vertex.end);

@@ -1,10 +1,12 @@
 #include "world/schedule/pair_estimate.h"
 
+#include "convex/support/support_gap.h"
 #include "geometry/triangle_triangle_intersect.h"
 #include "math/transform.h"
 #include "rigid/model/model_data.h"
 #include "rigid/pair/separating_plane.h"
 #include "world/narrow_phase/offset_surface.h"
+#include "world/narrow_phase/solid_gap.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +23,8 @@ constexpr std::uint8_t kLongestIdle = 127;
 constexpr double kCoarse = 0.5;
 /// Rounding of the witness points of two solids, relative to the coordinates.
 constexpr double kTiltRounding = 0x1p-48;
+/// Error of the distance of a curved shape, relative to the coordinates.
+constexpr double kCurvedGapRounding = 0x1p-38;
 
 OffsetSurface surface_now(const BodyShape& shape) {
     if (const auto* deformable = std::get_if<DeformableShape>(&shape))
@@ -59,6 +63,35 @@ public:
         return latest;
     }
 
+    [[nodiscard]] bool has_half_space() const {
+        return is_half_space(pair_.a.shape) || is_half_space(pair_.b.shape);
+    }
+    /// A half-space and any body: by the body's box, if that may suffice, then exactly. One that may
+    /// turn is tested in each step.
+    PairEstimate of_half_space(bool box_suffices) {
+        RelativeMotion motion = pair_.motion;
+        bool turning = false;
+        for (TurnBounds* turn : {&motion.a, &motion.b})
+            if (!(turn->reach < kNoCollision)) {
+                turning = turning || turn->velocity != Vec3{} || turn->speed > 0 ||
+                          turn->acceleration > 0;
+                turn->reach = 0;
+            }
+        if (box_suffices && !turning)
+            if (const double free = of_box_and_plane(motion); free > 0)
+                return {false, false, free};
+        const BodyGap gap =
+            gap_between(pair_.a, pair_.b, kNoCollision, Depths::no, memory_.warm_start);
+        if (gap.distance <= 0)
+            return {true, true, 0};
+        const double margin = kScheduleRounding * (size_of_coordinates() + gap.distance);
+        return {false, true, turning ? 0 : time_along(motion, gap.normal, gap.distance - margin)};
+    }
+
+    [[nodiscard]] bool has_curved_shape() const {
+        return std::holds_alternative<CurvedShape>(pair_.a.shape) ||
+               std::holds_alternative<CurvedShape>(pair_.b.shape);
+    }
     [[nodiscard]] bool both_solid() const {
         return is_convex(pair_.a.shape) && is_convex(pair_.b.shape);
     }
@@ -75,8 +108,13 @@ public:
         // The witness points are rounded. The shorter their distance, the more that tilts the normal,
         // and the solids may reach beyond the planes across a tilted normal.
         const double tilt = kTiltRounding * size_ / gap.distance;
-        return std::max(time_along(pair_.motion, gap.normal, gap.distance - tilt * size_ - margin_),
-                        time_from_distance(pair_.motion, gap.distance - margin_));
+        double along = gap.distance - tilt * size_, any = gap.distance;
+        if (has_curved_shape()) { // its distances have a larger error
+            along = separation_along(*support_of(pair_.a), *support_of(pair_.b), gap.normal);
+            any = std::min(any - kCurvedGapRounding * size_, along);
+        }
+        return std::max(time_along(pair_.motion, gap.normal, along - margin_),
+                        time_from_distance(pair_.motion, any - margin_));
     }
 
     double of_plane() {
@@ -125,6 +163,12 @@ public:
     }
 
     double of_surfaces(double relative_error) {
+        if (has_curved_shape()) { // a surface may be nearer to the shape than to its polyhedron
+            const BodyGap gap =
+                gap_between(pair_.a, pair_.b, kNoCollision, Depths::no, memory_.warm_start);
+            memory_.known = {gap.distance - kCurvedGapRounding * size_, a_from_b()};
+            return time_from_distance(pair_.motion, memory_.known.at_least - margin_);
+        }
         const OffsetSurface a = surface_now(pair_.a.shape), b = surface_now(pair_.b.shape);
         DistanceOptions options;
         options.relative_error = relative_error;
@@ -137,6 +181,32 @@ public:
     }
 
 private:
+    /// Of the body and the plane, where one of the two is a half-space.
+    [[nodiscard]] double size_of_coordinates() const {
+        double size = 0;
+        for (const PlacedBody* body : {&pair_.a, &pair_.b})
+            if (const auto* plane = std::get_if<PlaneShape>(&body->shape))
+                size +=
+                    max_abs(plane->point) + max_abs(placed(*plane, body->world_from_body).point);
+        for (const Box3* box : {&pair_.box_a, &pair_.box_b})
+            if (const double end = max_abs(box->lower) + max_abs(box->upper); end < kNoCollision)
+                size += end;
+        return size;
+    }
+    /// A time before which the box of one body does not reach the other's plane.
+    [[nodiscard]] double of_box_and_plane(const RelativeMotion& motion) const {
+        const bool is_a = is_half_space(pair_.a.shape);
+        const PlacedBody& body = is_a ? pair_.a : pair_.b;
+        const Box3& box = is_a ? pair_.box_b : pair_.box_a;
+        const PlaneShape plane = placed(std::get<PlaneShape>(body.shape), body.world_from_body);
+        const Vec3& n = plane.normal;
+        const Vec3 lowest{n.x > 0 ? box.lower.x : box.upper.x, n.y > 0 ? box.lower.y : box.upper.y,
+                          n.z > 0 ? box.lower.z : box.upper.z};
+        if (!is_finite(lowest))
+            return 0;
+        const double gap = dot(n, lowest - plane.point) - kScheduleRounding * size_of_coordinates();
+        return gap > 0 ? time_along(motion, is_a ? n : -n, gap) : 0;
+    }
     /// Rotations are orthogonal to a few roundings, which the margin covers.
     [[nodiscard]] Transform a_from_b() const {
         const Transform &a = pair_.a.world_from_body, &b = pair_.b.world_from_body;
@@ -190,6 +260,11 @@ PairEstimate estimate(const PairNow& pair, PairMemory& memory, double step,
             return {true, true, 0};
         memory.touched = false;
     }
+    if (estimator.has_half_space()) {
+        const PairEstimate result = estimator.of_half_space(true);
+        memory.touched = result.touch;
+        return result;
+    }
     double free = std::max(estimator.of_balls(), estimator.of_boxes());
     if (free > 0)
         return {false, false, free};
@@ -209,6 +284,8 @@ PairEstimate estimate(const PairNow& pair, PairMemory& memory, double step,
 
 PairEstimate best_estimate(const PairNow& pair, PairMemory& memory) {
     Estimator estimator(pair, memory);
+    if (estimator.has_half_space())
+        return estimator.of_half_space(false);
     double free = std::max(estimator.of_balls(), estimator.of_boxes());
     if (free == kNoCollision)
         return {false, false, free};

@@ -80,8 +80,11 @@ std::vector<std::uint32_t> CollisionSchedule::follow_courses() {
             continue;
         if (exists) {
             const bool is_new = course.reach < 0 || course.generation != bodies[body].generation;
-            if (is_new) // its motion is not known
-                course = {};
+            if (is_new) {
+                if (existed) // another body had this index, with other rules
+                    broad_phase_.forget();
+                course = {}; // its motion is not known
+            }
             const bool keeps = !is_new && keeps_course(course, bodies[body], now_);
             if (existed && course.known && keeps)
                 continue;
@@ -101,6 +104,8 @@ double CollisionSchedule::chosen_horizon(double step) const {
         if (takes_part(body)) {
             const CourseNow course = course_at(courses_[body], now_);
             const TurnBounds& turn = course.turn;
+            if (!(turn.reach < kNoCollision))
+                continue; // a half-space, which has no size
             size += turn.reach;
             speed += length(course.velocity) + course.speed +
                      turn.reach * (turn.speed + length(turn.velocity));

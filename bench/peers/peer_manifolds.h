@@ -1,0 +1,40 @@
+#pragma once
+
+#include <abut/types.h>
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace abut::bench {
+
+/// A body of a bench of contacts.
+struct ContactBody {
+    enum class Kind { box, capsule, hull } kind = Kind::box;
+    Vec3 half{};                ///< box: half sides. Capsule: z is half of the axis, along z
+    double radius = 0;          ///< of a capsule
+    std::vector<Vec3> points{}; ///< of a hull
+    bool is_static = false;
+};
+
+/// A peer that keeps bodies and their contacts from step to step.
+class ContactPeer {
+public:
+    virtual ~ContactPeer() = default;
+    [[nodiscard]] virtual std::string name() const = 0;
+    /// Moves all bodies and finds their contacts. Returns the number of contact points.
+    virtual std::size_t step(const std::vector<Pose>& poses) = 0;
+
+protected:
+    ContactPeer() = default;
+    ContactPeer(const ContactPeer&) = default;
+    ContactPeer& operator=(const ContactPeer&) = default;
+};
+
+/// Bullet's collision world in single precision, as packaged by Debian, with its own margins. Null
+/// if this program is built without Bullet.
+std::unique_ptr<ContactPeer> make_bullet_contacts(const std::vector<ContactBody>& bodies);
+
+} // namespace abut::bench

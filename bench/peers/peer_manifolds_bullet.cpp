@@ -1,0 +1,101 @@
+#include "peers/peer_manifolds.h"
+
+#ifdef ABUT_BENCH_BULLET
+#include <btBulletCollisionCommon.h>
+#include <fmt/format.h>
+#endif
+
+namespace abut::bench {
+
+#ifdef ABUT_BENCH_BULLET
+
+namespace {
+
+btVector3 bullet_point(const Vec3& p) {
+    return {static_cast<btScalar>(p.x), static_cast<btScalar>(p.y), static_cast<btScalar>(p.z)};
+}
+
+std::unique_ptr<btCollisionShape> bullet_shape(const ContactBody& body) {
+    if (body.kind == ContactBody::Kind::box)
+        return std::make_unique<btBoxShape>(bullet_point(body.half));
+    if (body.kind == ContactBody::Kind::capsule)
+        return std::make_unique<btCapsuleShapeZ>(static_cast<btScalar>(body.radius),
+                                                 static_cast<btScalar>(2 * body.half.z));
+    auto hull = std::make_unique<btConvexHullShape>();
+    for (const Vec3& point : body.points)
+        hull->addPoint(bullet_point(point), false);
+    hull->recalcLocalAabb();
+    return hull;
+}
+
+class BulletContacts final : public ContactPeer {
+public:
+    explicit BulletContacts(const std::vector<ContactBody>& bodies) {
+        world_.setForceUpdateAllAabbs(false);
+        for (const ContactBody& body : bodies) {
+            shapes_.push_back(bullet_shape(body));
+            objects_.push_back(std::make_unique<btCollisionObject>());
+            btCollisionObject& object = *objects_.back();
+            object.setCollisionShape(shapes_.back().get());
+            if (body.is_static)
+                object.setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
+            else
+                object.setCollisionFlags(0);
+            object.setActivationState(DISABLE_DEACTIVATION);
+            world_.addCollisionObject(
+                &object,
+                body.is_static ? btBroadphaseProxy::StaticFilter : btBroadphaseProxy::DefaultFilter,
+                body.is_static ? btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter
+                               : btBroadphaseProxy::AllFilter);
+        }
+    }
+    ~BulletContacts() override {
+        for (const auto& object : objects_)
+            world_.removeCollisionObject(object.get());
+    }
+    BulletContacts(const BulletContacts&) = delete;
+    BulletContacts& operator=(const BulletContacts&) = delete;
+
+    [[nodiscard]] std::string name() const override {
+        return fmt::format("Bullet {}, float", btGetVersion());
+    }
+    std::size_t step(const std::vector<Pose>& poses) override {
+        for (std::size_t i = 0; i < poses.size(); ++i) {
+            const auto& q = poses[i].rotation;
+            const auto at = [&](std::size_t k) { return static_cast<btScalar>(q[k]); };
+            objects_[i]->setWorldTransform(
+                btTransform(btQuaternion(at(1), at(2), at(3), at(0)).normalized(),
+                            bullet_point(poses[i].translation)));
+        }
+        world_.performDiscreteCollisionDetection();
+        std::size_t points = 0;
+        for (int i = 0; i < dispatcher_.getNumManifolds(); ++i)
+            points += static_cast<std::size_t>(
+                dispatcher_.getManifoldByIndexInternal(i)->getNumContacts());
+        return points;
+    }
+
+private:
+    btDefaultCollisionConfiguration configuration_;
+    btCollisionDispatcher dispatcher_{&configuration_};
+    btDbvtBroadphase broad_phase_;
+    btCollisionWorld world_{&dispatcher_, &broad_phase_, &configuration_};
+    std::vector<std::unique_ptr<btCollisionShape>> shapes_;
+    std::vector<std::unique_ptr<btCollisionObject>> objects_;
+};
+
+} // namespace
+
+std::unique_ptr<ContactPeer> make_bullet_contacts(const std::vector<ContactBody>& bodies) {
+    return std::make_unique<BulletContacts>(bodies);
+}
+
+#else
+
+std::unique_ptr<ContactPeer> make_bullet_contacts(const std::vector<ContactBody>& /*bodies*/) {
+    return {};
+}
+
+#endif
+
+} // namespace abut::bench

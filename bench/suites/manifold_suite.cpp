@@ -1,0 +1,188 @@
+#include <abut/progress.h>
+#include <abut/world.h>
+
+#include "measure.h"
+#include "peers/peer_manifolds.h"
+#include "suite.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace abut::bench {
+
+namespace {
+
+struct ManifoldSuiteOptions {
+    std::size_t bodies = 1000;
+    int steps = 60;
+    bool alone = false;
+    std::string only;
+    std::uint64_t seed = 1;
+};
+
+constexpr double kMilliseconds = 1e3;
+constexpr double kMargin = 0.02; ///< Bullet's contact breaking threshold
+
+/// Bodies, and their poses in the first step. Each moves a little in every step.
+struct ContactScene {
+    std::string name;
+    std::vector<ContactBody> bodies;
+    std::vector<Pose> poses;
+};
+
+class SceneMaker {
+public:
+    explicit SceneMaker(const ManifoldSuiteOptions& options)
+        : count_(options.bodies), random_(options.seed) {}
+
+    /// Stacks of ten boxes on a floor.
+    ContactScene stacks() {
+        ContactScene scene{"stacked boxes", {}, {}};
+        ContactBody floor;
+        floor.half = {400, 400, 1}, floor.is_static = true;
+        scene.bodies.push_back(floor);
+        scene.poses.push_back({{0, 0, -1}, {1, 0, 0, 0}});
+        ContactBody box;
+        box.half = {0.5, 0.5, 0.5};
+        for (std::size_t i = 0; i < count_; ++i) {
+            const std::size_t stack = i / 10, level = i % 10;
+            const std::size_t row = stack / 20, column = stack % 20;
+            scene.bodies.push_back(box);
+            scene.poses.push_back(
+                {{3.0 * static_cast<double>(column), 3.0 * static_cast<double>(row),
+                  0.499 + 0.998 * static_cast<double>(level)},
+                 {1, 0, 0, 0}});
+        }
+        return scene;
+    }
+    /// Bodies at random places, each with about three partners.
+    ContactScene crowd(const std::string& name, ContactBody::Kind kind) {
+        ContactScene scene{name, {}, {}};
+        const double side = 0.85 * std::cbrt(static_cast<double>(count_));
+        for (std::size_t i = 0; i < count_; ++i) {
+            ContactBody body;
+            body.kind = kind;
+            body.half = {draw(0.3, 0.5), draw(0.3, 0.5), draw(0.3, 0.5)};
+            body.radius = 0.25;
+            if (kind == ContactBody::Kind::hull)
+                for (int k = 0; k < 24; ++k)
+                    body.points.push_back(on_sphere(0.5));
+            scene.bodies.push_back(body);
+            const Vec3 at{draw(0, side), draw(0, side), draw(0, side)};
+            scene.poses.push_back({at, {draw(-1, 1), draw(-1, 1), draw(-1, 1), draw(0.1, 1)}});
+        }
+        return scene;
+    }
+    /// The next step's poses.
+    void move(ContactScene& scene) {
+        for (std::size_t i = 0; i < scene.poses.size(); ++i) {
+            if (scene.bodies[i].is_static)
+                continue;
+            Pose& pose = scene.poses[i];
+            pose.translation = {pose.translation.x + draw(-1e-3, 1e-3),
+                                pose.translation.y + draw(-1e-3, 1e-3),
+                                pose.translation.z + draw(-1e-4, 1e-4)};
+            pose.rotation[3] += draw(-1e-3, 1e-3);
+        }
+    }
+
+private:
+    double draw(double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random_);
+    }
+    Vec3 on_sphere(double radius) {
+        const double z = draw(-1, 1), angle = draw(0, 6.283185307179586), r = std::sqrt(1 - z * z);
+        return {radius * r * std::cos(angle), radius * r * std::sin(angle), radius * z};
+    }
+
+    std::size_t count_;
+    std::mt19937_64 random_;
+};
+
+BodyId add_to(World& world, const ContactBody& body, const Pose& pose) {
+    const BodyOptions options{.is_static = body.is_static};
+    const Vec3& half = body.half;
+    if (body.kind == ContactBody::Kind::box)
+        return world.add(Box3{{-half.x, -half.y, -half.z}, half}, pose, options);
+    if (body.kind == ContactBody::Kind::capsule)
+        return world.add(Capsule{{{0, 0, -half.z}, {0, 0, half.z}}, body.radius}, pose, options);
+    return world.add(Convex(body.points), pose, options);
+}
+
+Row measure_scene(ContactScene scene, SceneMaker& maker, const ManifoldSuiteOptions& options) {
+    set_threads(1);
+    World world;
+    std::vector<BodyId> ids;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+        ids.push_back(add_to(world, scene.bodies[i], scene.poses[i]));
+    const auto peer = options.alone ? nullptr : make_bullet_contacts(scene.bodies);
+    std::vector<double> ours, theirs;
+    std::size_t pairs = 0, points = 0, peer_points = 0;
+    for (int step = -3; step < options.steps; ++step) { // three steps to warm up
+        maker.move(scene);
+        const double start = thread_seconds();
+        for (std::size_t i = 0; i < ids.size(); ++i)
+            world.move(ids[i], scene.poses[i]);
+        const auto manifolds = world.contact_manifolds(kMargin);
+        const double middle = thread_seconds();
+        if (peer)
+            peer_points = peer->step(scene.poses);
+        if (step >= 0)
+            ours.push_back(middle - start), theirs.push_back(thread_seconds() - middle);
+        pairs = manifolds.size(), points = 0;
+        for (const ContactManifold& manifold : manifolds)
+            points += manifold.count;
+    }
+    set_threads(0);
+    Row row{fmt::format("{}, {}", options.bodies, scene.name),
+            kMilliseconds * median(ours),
+            {},
+            {},
+            "ms/step",
+            1,
+            {}};
+    row.counters["manifolds"] = static_cast<double>(pairs);
+    row.counters["points"] = static_cast<double>(points);
+    if (peer) {
+        row.peer = peer->name();
+        row.theirs = kMilliseconds * median(theirs);
+        row.counters["points of the peer"] = static_cast<double>(peer_points);
+    }
+    return row;
+}
+
+Report run_manifold_suite(const ManifoldSuiteOptions& options) {
+    Report report;
+    report.suite = "manifolds";
+    report.notes.push_back("a step moves all bodies and finds all contacts; the margin is 0.02");
+    SceneMaker maker(options);
+    std::vector<ContactScene> scenes;
+    scenes.push_back(maker.stacks());
+    scenes.push_back(maker.crowd("random boxes", ContactBody::Kind::box));
+    scenes.push_back(maker.crowd("random capsules", ContactBody::Kind::capsule));
+    scenes.push_back(maker.crowd("random hulls of 24 points", ContactBody::Kind::hull));
+    for (ContactScene& scene : scenes)
+        if (scene.name.find(options.only) != std::string::npos)
+            report.rows.push_back(measure_scene(std::move(scene), maker, options));
+    return report;
+}
+
+const Suite kManifoldSuite("manifolds", "Contact manifolds of a World, against Bullet",
+                           [](CLI::App& suite) -> RunSuite {
+                               const auto options = std::make_shared<ManifoldSuiteOptions>();
+                               suite.add_option("--bodies", options->bodies, "In each case");
+                               suite.add_option("--steps", options->steps, "In each case");
+                               suite.add_flag("--alone", options->alone, "Without peers");
+                               add_only(suite, options->only);
+                               suite.add_option("--seed", options->seed, "Of bodies and poses");
+                               return [options] { return run_manifold_suite(*options); };
+                           });
+
+} // namespace
+
+} // namespace abut::bench

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+/// How a `World` names its bodies and pairs of them.
+namespace abut {
+
+/// Identifies a body of a world. Valid until the body is removed, and never valid again.
+struct BodyId {
+    std::uint32_t index = std::numeric_limits<std::uint32_t>::max();
+    std::uint32_t generation = 0; ///< number of earlier bodies with this index
+    friend bool operator==(const BodyId&, const BodyId&) = default;
+    friend bool operator<(const BodyId& a, const BodyId& b) {
+        return a.index != b.index ? a.index < b.index : a.generation < b.generation;
+    }
+};
+
+/// Two bodies, with a.index < b.index.
+struct BodyPair {
+    BodyId a, b;
+    friend bool operator==(const BodyPair&, const BodyPair&) = default;
+    friend bool operator<(const BodyPair& p, const BodyPair& q) {
+        return p.a == q.a ? p.b < q.b : p.a < q.a;
+    }
+};
+
+} // namespace abut

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <abut/body_id.h>
+#include <abut/types.h>
+
+#include <array>
+#include <cstdint>
+
+/// Contacts that hold a body: up to four points of each contact region, as a simulator needs them.
+/// docs/contacts.md explains how they are found.
+namespace abut {
+
+/// A point where two bodies touch, penetrate each other, or are near each other.
+struct ContactPoint {
+    /// On the two surfaces, world frame: point_a - point_b is `depth` times the normal. Of a gap of
+    /// two models, `depth` is its part along the normal.
+    Vec3 point_a, point_b;
+    double depth = 0;          ///< along the normal; negative: a gap, at most the margin
+    std::uint64_t feature = 0; ///< names the two features that make the point; stays while they do
+};
+
+/// A region where two bodies are in contact. The points are the corners of that region, without
+/// those that four others represent.
+struct ContactManifold {
+    BodyId a, b;              ///< a.index < b.index
+    Vec3 normal;              ///< unit vector from a to b
+    std::uint32_t region = 0; ///< names the contact region of this pair; 0 for convex bodies
+    std::uint32_t count = 0;  ///< of the points that are set
+    std::array<ContactPoint, 4> points; ///< the deepest first; their names differ
+    /// exact: to rounding. bound_only: if both bodies are models, depths are those of lines along
+    /// the normal; else bodies that meet are at least this deep in each other.
+    Status status = Status::exact;
+};
+
+} // namespace abut

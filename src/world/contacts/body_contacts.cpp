@@ -1,0 +1,158 @@
+#include "world/contacts/body_contacts.h"
+
+#include <abut/model_contacts.h>
+
+#include "convex/body/convex_data.h"
+#include "math/transform.h"
+#include "math/vector.h"
+#include "world/contacts/solid_contacts.h"
+#include "world/narrow_phase/offset_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <variant>
+
+namespace abut {
+
+namespace {
+
+/// A unit vector from a to b where the contact itself has no direction: between the middles of the
+/// bodies' boxes.
+Vec3 direction_between(const PlacedBody& a, const PlacedBody& b) {
+    const auto middle = [](const PlacedBody& body) {
+        const Box3 box = bounds_of(body.shape, bounds_of(body.shape), body.world_from_body);
+        return is_empty(box) ? Vec3{} : 0.5 * box.lower + 0.5 * box.upper;
+    };
+    const Vec3 direction = normalized_or_zero(middle(b) - middle(a));
+    return direction == Vec3{} || !is_finite(direction) ? Vec3{0, 0, 1} : direction;
+}
+
+/// The largest distance of a convex shape's coordinates from its own origin.
+double size_of(const BodyShape& shape) {
+    if (const auto* convex = std::get_if<ConvexShape>(&shape))
+        return convex->solid.data().reach;
+    const auto& box = std::get<RoundedBox>(shape);
+    return sum_of_sizes(box.centre) + box.half[0] + box.half[1] + box.half[2] + box.radius;
+}
+
+/// The face of a convex shape that is most opposed to another body.
+ContactFace face_of(const PlacedBody& body, const Vec3& direction, const Vec3& origin) {
+    if (const auto* convex = std::get_if<ConvexShape>(&body.shape))
+        return contact_face(convex->solid, *convex->faces, body.world_from_body, direction, origin);
+    return contact_face(placed(std::get<RoundedBox>(body.shape), body.world_from_body), direction,
+                        origin);
+}
+
+/// The contact of two convex shapes. Returns whether they are at most the margin apart.
+bool convex_contact(const PlacedBody& a, const PlacedBody& b, double margin,
+                    PairWarmStart& warm_start, ContactManifold& manifold) {
+    const BodyGap gap =
+        gap_between(a, b, std::nextafter(margin, HUGE_VAL), Depths::yes, warm_start);
+    if (gap.distance > margin)
+        return false;
+    const auto &m = a.world_from_body.m, &n = b.world_from_body.m;
+    const Vec3 origin{m[9], m[10], m[11]};
+    const Vec3 normal = gap.normal == Vec3{} ? direction_between(a, b) : gap.normal;
+    // The depth is compared with the search's own, which has a few roundings more.
+    const double rounding = 0x1p-44 * (size_of(a.shape) + size_of(b.shape) +
+                                       sum_of_sizes(Vec3{n[9], n[10], n[11]} - origin)) +
+                            0x1p-50 * sum_of_sizes(origin);
+    set_corners_and_witness(
+        face_of(a, normal, origin), face_of(b, -normal, origin), ContactFrame(origin, normal),
+        {gap.distance, gap.point_a, gap.point_b, normal}, {margin, rounding}, manifold);
+    return true;
+}
+
+/// One contact point: that of `penetration`, or of the distance.
+void append_one_point(const PlacedBody& a, const PlacedBody& b, double margin,
+                      PairWarmStart& warm_start, std::vector<ContactManifold>& manifolds) {
+    if (margin == 0 && !touch(a, b, warm_start))
+        return;
+    const double bound = margin == 0 ? HUGE_VAL : std::nextafter(margin, HUGE_VAL);
+    const BodyGap gap = gap_between(a, b, bound, Depths::yes, warm_start);
+    if (margin > 0 && gap.distance > margin)
+        return;
+    ContactManifold& manifold = manifolds.emplace_back();
+    manifold.normal = gap.normal == Vec3{} ? direction_between(a, b) : gap.normal;
+    manifold.count = 1;
+    // Witness points without a direction are one point.
+    const Vec3 point_b =
+        gap.normal == Vec3{} ? gap.point_a + gap.distance * manifold.normal : gap.point_b;
+    manifold.points[0] = {gap.point_a, point_b, -gap.distance,
+                          std::uint64_t{gap.triangle_a} << 32 | gap.triangle_b};
+    manifold.status = gap.status;
+}
+
+bool is_surface(const BodyShape& shape) {
+    return std::holds_alternative<Model>(shape) || is_deformable(shape);
+}
+
+/// The faces of a body as triangles. None of a ball, a capsule, a box without area, a curved shape or
+/// a half-space.
+std::optional<OffsetSurface> triangles_of(const BodyShape& shape) {
+    if (const auto* deformable = std::get_if<DeformableShape>(&shape))
+        return OffsetSurface{deformable->snapshot->model(), {}, 0};
+    if (const auto* box = std::get_if<RoundedBox>(&shape);
+        box != nullptr && std::count(box->half.begin(), box->half.end(), 0.0) > 1)
+        return std::nullopt;
+    if (std::holds_alternative<CurvedShape>(shape) || is_half_space(shape))
+        return std::nullopt;
+    return offset_surface_of(shape);
+}
+
+/// The manifolds of two surfaces, one for each region where they meet.
+void append_surface_contacts(const OffsetSurface& a, const Transform& world_from_a,
+                             const OffsetSurface& b, const Transform& world_from_b, double margin,
+                             std::vector<ContactManifold>& manifolds) {
+    ManifoldOptions options;
+    options.margin = margin;
+    for (const ModelManifold& region :
+         contact_manifolds(a.surface, compose(world_from_a, a.body_from_surface), b.surface,
+                           compose(world_from_b, b.body_from_surface), options)) {
+        ContactManifold& manifold = manifolds.emplace_back();
+        manifold.normal = region.normal, manifold.region = region.region;
+        manifold.count = region.count, manifold.points = region.points;
+        manifold.status = Status::bound_only;
+    }
+}
+
+/// Whether the kind of shape has a face for `face_of`. Curved shapes and half-spaces have one point.
+bool has_faces(const BodyShape& shape) {
+    return std::holds_alternative<RoundedBox>(shape) || std::holds_alternative<ConvexShape>(shape);
+}
+
+/// The contact of two convex shapes, by the cheapest way there is for them.
+bool solid_contact(const PlacedBody& a, const PlacedBody& b, double margin,
+                   PairWarmStart& warm_start, ContactManifold& manifold) {
+    const auto* box_a = std::get_if<RoundedBox>(&a.shape);
+    const auto* box_b = std::get_if<RoundedBox>(&b.shape);
+    if (box_a == nullptr || box_b == nullptr)
+        return convex_contact(a, b, margin, warm_start, manifold);
+    return rounded_box_contact(placed(*box_a, a.world_from_body), placed(*box_b, b.world_from_body),
+                               margin, manifold);
+}
+
+} // namespace
+
+void append_contacts(const PlacedBody& a, const PlacedBody& b, const BodyPair& ids, double margin,
+                     PairWarmStart& warm_start, std::vector<ContactManifold>& manifolds) {
+    const std::size_t first = manifolds.size();
+    if (is_surface(a.shape) || is_surface(b.shape)) {
+        const auto triangles_a = triangles_of(a.shape), triangles_b = triangles_of(b.shape);
+        if (triangles_a && triangles_b)
+            append_surface_contacts(*triangles_a, a.world_from_body, *triangles_b,
+                                    b.world_from_body, margin, manifolds);
+        // The triangles of a box are rounded, so that they may miss what the box touches.
+        if (manifolds.size() == first && !(is_surface(a.shape) && is_surface(b.shape)))
+            append_one_point(a, b, margin, warm_start, manifolds);
+    } else if (!has_faces(a.shape) || !has_faces(b.shape)) {
+        append_one_point(a, b, margin, warm_start, manifolds);
+    } else if (!solid_contact(a, b, margin, warm_start, manifolds.emplace_back())) {
+        manifolds.pop_back();
+    }
+    for (std::size_t i = first; i < manifolds.size(); ++i)
+        manifolds[i].a = ids.a, manifolds[i].b = ids.b;
+}
+
+} // namespace abut

@@ -1,0 +1,188 @@
+#include "world/contacts/solid_contacts.h"
+
+#include "geometry/least_box_overlap.h"
+#include "geometry/triangle_triangle_distance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace abut {
+
+namespace {
+
+void drop_beyond_margin(ContactCandidates& candidates, const ContactLimits& limits) {
+    const double least = -limits.margin - limits.rounding;
+    candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
+                                    [&](const ContactCandidate& c) { return c.depth() < least; }),
+                     candidates.end());
+}
+
+/// Writes the candidates that are within the margin, at most four.
+void write_points(ContactCandidates& candidates, const ContactFrame& frame,
+                  const ContactLimits& limits, ContactManifold& manifold) {
+    drop_beyond_margin(candidates, limits);
+    keep_four(candidates);
+    manifold.normal = frame.normal;
+    manifold.region = 0;
+    manifold.status = Status::exact;
+    manifold.count = static_cast<std::uint32_t>(candidates.size());
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        const ContactCandidate& from = candidates[i];
+        manifold.points[i] = {frame.world(from.x, from.y, from.height_a),
+                              frame.world(from.x, from.y, from.height_b), from.depth(),
+                              from.feature};
+    }
+}
+
+double deepest_of(const ContactCandidates& candidates) {
+    double depth = -HUGE_VAL;
+    for (const ContactCandidate& each : candidates)
+        depth = std::max(depth, each.depth());
+    return depth;
+}
+
+/// The vertex of a face that is farthest along a direction.
+const ContactFace::Corner& farthest_corner(const ContactFace& face, const Vec3& direction) {
+    return *std::max_element(face.corners.begin(), face.corners.end(),
+                             [&](const ContactFace::Corner& p, const ContactFace::Corner& q) {
+                                 return dot(p.at, direction) < dot(q.at, direction);
+                             });
+}
+
+/// Names the witness points: by the edges if both faces are segments, else by the vertices that are
+/// farthest along the normal. A point is the only vertex of its face.
+std::uint64_t witness_name(const ContactFace& a, const ContactFace& b, const Vec3& normal) {
+    const ContactFace::Corner &of_a = farthest_corner(a, normal),
+                              &of_b = farthest_corner(b, -normal);
+    const bool point_a = a.corners.size() == 1, point_b = b.corners.size() == 1;
+    if (a.corners.size() == 2 && b.corners.size() == 2)
+        return feature_name(FeatureKind::edges, of_a.edge, of_b.edge);
+    if (point_a != point_b)
+        return point_a ? feature_name(FeatureKind::vertex_of_a, of_a.vertex, 0)
+                       : feature_name(FeatureKind::vertex_of_b, 0, of_b.vertex);
+    return feature_name(FeatureKind::vertices, of_a.vertex, of_b.vertex);
+}
+
+double size_of(const RoundedBox& box) {
+    return box.half[0] + box.half[1] + box.half[2] + box.radius;
+}
+
+bool has_no_extent(const RoundedBox& box) {
+    return box.half[0] == 0 && box.half[1] == 0 && box.half[2] == 0;
+}
+
+/// The gap of a box and a ball, whose centre is b's. The normal points to the ball.
+SolidGap ball_gap(const RoundedBox& box, const RoundedBox& ball) {
+    const Vec3 way = ball.centre - box.centre;
+    Vec3 nearest; // relative to the box's centre
+    std::size_t least = 0;
+    std::array<double, 3> along{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        along[k] = dot(way, box.axis[k]);
+        nearest = nearest + std::clamp(along[k], -box.half[k], box.half[k]) * box.axis[k];
+        if (box.half[k] - std::abs(along[k]) < box.half[least] - std::abs(along[least]))
+            least = k;
+    }
+    const double distance = length(way - nearest);
+    SolidGap gap;
+    gap.distance = distance, gap.normal = (1 / distance) * (way - nearest);
+    if (!(box.half[least] - std::abs(along[least]) < 0 && distance > 0)) {
+        // The centre lies in the box: the way out is through the nearest face.
+        gap.normal = along[least] < 0 ? -box.axis[least] : box.axis[least];
+        gap.distance = std::abs(along[least]) - box.half[least];
+        nearest = way - gap.distance * gap.normal;
+    }
+    gap.point_a = box.centre + (nearest + box.radius * gap.normal);
+    gap.point_b = ball.centre - ball.radius * gap.normal;
+    gap.distance -= box.radius + ball.radius;
+    return gap;
+}
+
+SolidGap turned_round(const SolidGap& gap) {
+    return {gap.distance, gap.point_b, gap.point_a, -gap.normal};
+}
+
+/// The gap along the direction of the distance or of the shortest separating motion.
+SolidGap gap_of(const RoundedBox& a, const RoundedBox& b, double upper_bound) {
+    if (has_no_extent(a) != has_no_extent(b))
+        return has_no_extent(b) ? ball_gap(a, b) : turned_round(ball_gap(b, a));
+    return rounded_box_distance(a, b, upper_bound);
+}
+
+/// The contact along that direction.
+bool contact_by_distance(const RoundedBox& a, const RoundedBox& b, const ContactLimits& limits,
+                         ContactManifold& manifold) {
+    const SolidGap gap = gap_of(a, b, std::nextafter(limits.margin + limits.rounding, HUGE_VAL));
+    if (gap.distance > limits.margin)
+        return false;
+    const ContactFrame frame(a.centre, gap.normal);
+    set_corners_and_witness(contact_face(a, gap.normal, a.centre),
+                            contact_face(b, -gap.normal, a.centre), frame, gap, limits, manifold);
+    return true;
+}
+
+/// The contact along the axis on which the boxes overlap least. False if they are nearest along
+/// another direction; `apart` then tells whether they are farther apart than the margin.
+bool contact_by_axis(const RoundedBox& a, const RoundedBox& b, const ContactLimits& limits,
+                     bool& apart, ContactManifold& manifold) {
+    const LeastOverlap least = least_overlap(a, b);
+    const double depth = least.overlap + a.radius + b.radius;
+    apart = depth < -limits.margin - limits.rounding;
+    if (depth < -limits.margin)
+        return false;
+    return set_corners(contact_face(a, least.normal, a.centre),
+                       contact_face(b, -least.normal, a.centre),
+                       ContactFrame(a.centre, least.normal), depth, limits, manifold);
+}
+
+} // namespace
+
+bool set_corners(const ContactFace& a, const ContactFace& b, const ContactFrame& frame,
+                 double depth, const ContactLimits& limits, ContactManifold& manifold) {
+    ContactCandidates candidates;
+    add_overlap_corners(a, b, frame, candidates);
+    if (!(deepest_of(candidates) >= depth - limits.rounding))
+        return false;
+    write_points(candidates, frame, limits, manifold);
+    return true;
+}
+
+void set_corners_and_witness(const ContactFace& a, const ContactFace& b, const ContactFrame& frame,
+                             const SolidGap& witness, const ContactLimits& limits,
+                             ContactManifold& manifold) {
+    ContactCandidates candidates;
+    add_overlap_corners(a, b, frame, candidates);
+    if (!(deepest_of(candidates) >= -witness.distance - limits.rounding)) {
+        // Far from the origin, the witness points are rounded more than their distance.
+        const Vec3 on_a = witness.point_a - frame.origin;
+        const double height = dot(on_a, frame.normal);
+        const ContactCandidate added{dot(on_a, frame.across_x), dot(on_a, frame.across_y), height,
+                                     height + witness.distance, witness_name(a, b, frame.normal)};
+        const auto same =
+            std::find_if(candidates.begin(), candidates.end(), [&](const ContactCandidate& each) {
+                return each.feature == added.feature;
+            });
+        if (same != candidates.end())
+            *same = added;
+        else
+            candidates.push_back(added);
+    }
+    write_points(candidates, frame, limits, manifold);
+}
+
+bool rounded_box_contact(const RoundedBox& a, const RoundedBox& b, double margin,
+                         ContactManifold& manifold) {
+    const ContactLimits limits{margin,
+                               0x1p-46 * (length(b.centre - a.centre) + size_of(a) + size_of(b))};
+    if (!has_no_extent(a) && !has_no_extent(b)) {
+        bool apart = false;
+        if (contact_by_axis(a, b, limits, apart, manifold))
+            return true;
+        if (apart)
+            return false;
+    }
+    return contact_by_distance(a, b, limits, manifold);
+}
+
+} // namespace abut

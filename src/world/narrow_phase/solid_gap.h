@@ -1,0 +1,34 @@
+#pragma once
+
+#include "world/narrow_phase/narrow_phase.h"
+
+#include <optional>
+
+// Gaps of curved shapes and half-spaces with the other kinds of shape.
+namespace abut {
+
+/// A convex body, or a rounded box in the world, as a support shape.
+SupportShape support_of(const ConvexShape& convex, const Transform& world_from_body);
+SupportShape support_of(const RoundedBox& solid);
+/// The support shape of a body in the world; none for a surface or a half-space.
+std::optional<SupportShape> support_of(const PlacedBody& body);
+
+/// The gap of two solids, ids not set.
+BodyGap solid_gap(const SupportShape& a, const SupportShape& b, double upper_bound,
+                  Vec3& direction);
+/// The gap of a solid and a half-space, in closed form.
+BodyGap solid_gap(const SupportShape& a, const PlaneShape& plane);
+/// The gap of two half-spaces. They overlap without end unless their normals are opposite.
+BodyGap solid_gap(const PlaneShape& a, const PlaneShape& b);
+
+/// Whether a model's surface shares a point with a solid.
+bool surface_meets(const Model& model, const Transform& world_from_model, const SupportShape& solid,
+                   Vec3& direction);
+/// The gap of a model's surface and a solid. If they meet: 0, or with depths minus the depth of a
+/// triangle that is deep in the solid (bound_only).
+BodyGap surface_gap(const Model& model, const Transform& world_from_model,
+                    const SupportShape& solid, double upper_bound, Depths depths, Vec3& direction);
+/// The gap of a model's surface and a half-space: that of the lowest vertex.
+BodyGap surface_gap(const Model& model, const Transform& world_from_model, const PlaneShape& plane);
+
+} // namespace abut
