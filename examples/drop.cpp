@@ -4,10 +4,8 @@
 
 #include <abut/frame.h>
 
-#include "container.h"
 #include "program.h"
-#include "simulator.h"
-#include "surfaces.h"
+#include "simulator/container.h"
 
 #include <chrono>
 #include <cstdio>
@@ -21,8 +19,8 @@ int run(int argc, char** argv) {
     const double seconds = argc > 2 ? std::atof(argv[2]) : 5;
     const std::string folder = argc > 3 ? argv[3] : "";
 
-    drop::Simulator simulator;
-    const drop::Surfaces surfaces = drop::fill_container(simulator, bodies);
+    simulation::Stage stage;
+    simulation::fill_container(stage, bodies);
     constexpr int kStepsOfFrame = 2, kFramesOfSecond = 60;
     const int frames = static_cast<int>(seconds * kFramesOfSecond);
     const auto start = std::chrono::steady_clock::now();
@@ -32,17 +30,18 @@ int run(int argc, char** argv) {
     };
     for (int frame = 0; frame < frames; ++frame) {
         for (int i = 0; i < kStepsOfFrame; ++i)
-            simulator.step(1.0 / (kStepsOfFrame * kFramesOfSecond));
+            stage.simulator.step(1.0 / (kStepsOfFrame * kFramesOfSecond));
         if (folder.empty())
             continue;
         const double begin = elapsed();
         char name[32];
         std::snprintf(name, sizeof name, "/frame-%05d.ply", frame);
-        abut::write_frame(surfaces.placed(simulator), folder + name);
+        abut::write_frame(stage.surfaces.placed(stage.simulator), folder + name);
         writing += elapsed() - begin;
     }
     std::printf("%d bodies, %.1f s simulated in %.1f s (%d pairs of boxes at the end)\n", bodies,
-                seconds, elapsed() - writing, static_cast<int>(simulator.world().pairs().size()));
+                seconds, elapsed() - writing,
+                static_cast<int>(stage.simulator.world().pairs().size()));
     return 0;
 }
 

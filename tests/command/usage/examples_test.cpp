@@ -74,6 +74,13 @@ TEST_F(ExamplePrograms, FallingBall) {
     EXPECT_EQ(run_example("falling-ball", {}).out, "the ball rests at z = 0.50 m\n");
 }
 
+TEST_F(ExamplePrograms, AnyCulling) {
+    const std::string out = run_example("any-culling", {}).out;
+    EXPECT_EQ(out, "132126 triangle pairs, 12543 tests, 2850 impacts\n");
+    EXPECT_NE(read_file(std::string(ABUT_SOURCE_DIR) + "/docs/any-culling.md").find(out),
+              std::string::npos);
+}
+
 TEST_F(ExamplePrograms, SayWhatIsWrong) {
     for (const char* name :
          {"two-models", "shape-queries", "clashes", "store-clashes", "trajectory"}) {

@@ -1,9 +1,9 @@
-#include "container.h"
+#include "simulator/container.h"
 
 #include <cmath>
 #include <random>
 
-namespace drop {
+namespace simulation {
 
 namespace {
 
@@ -20,11 +20,9 @@ double half_width(int bodies) {
     return 0.5 * kSpacing * (bodies_of_row(bodies) + 1);
 }
 
-Surfaces fill_container(Simulator& simulator, int bodies) {
-    Surfaces surfaces;
-    const auto add = [&](const auto& shape, const abut::Pose& pose, double density) {
-        simulator.add(shape, pose, density);
-        surfaces.of_body.push_back(surface_of(shape));
+void fill_container(Stage& stage, int bodies) {
+    const auto add = [&](const auto& shape, const Pose& pose, double density) {
+        stage.add(shape, pose, {.density = density});
     };
     const double w = half_width(bodies), thick = 0.5, high = 4 * w;
     const double wide = w + 2 * thick;
@@ -39,10 +37,10 @@ Surfaces fill_container(Simulator& simulator, int bodies) {
     for (int i = 0; i < bodies; ++i) {
         const auto along = [&](int k) { return kSpacing * (k - 0.5 * (row - 1)); };
         const double q[4] = {uniform(random), uniform(random), uniform(random), uniform(random)};
-        const abut::Pose pose{{along(i % row) + 0.02 * uniform(random),
-                               along(i / row % row) + 0.02 * uniform(random),
-                               0.3 + kSpacing * std::floor(static_cast<double>(i) / (row * row))},
-                              {q[0], q[1], q[2], q[3]}};
+        const Pose pose{{along(i % row) + 0.02 * uniform(random),
+                         along(i / row % row) + 0.02 * uniform(random),
+                         0.3 + kSpacing * std::floor(static_cast<double>(i) / (row * row))},
+                        {q[0], q[1], q[2], q[3]}};
         if (i % 3 == 0)
             add(abut::Sphere{{}, 0.1}, pose, kDensity);
         else if (i % 3 == 1)
@@ -50,7 +48,6 @@ Surfaces fill_container(Simulator& simulator, int bodies) {
         else
             add(abut::Box3{{-0.1, -0.07, -0.06}, {0.1, 0.07, 0.06}}, pose, kDensity);
     }
-    return surfaces;
 }
 
-} // namespace drop
+} // namespace simulation

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <abut/convex.h>
+#include <abut/model.h>
+#include <abut/shapes.h>
+
+#include "simulator/rotation.h"
+
+/// Mass, centre of mass and inertia of shapes of uniform density.
+namespace simulation {
+
+struct Mass {
+    double mass = 0;
+    Vec3 centre;                  ///< of mass, in the shape's frame
+    Matrix inertia = kZeroMatrix; ///< about the centre of mass, along the shape's axes
+};
+
+Mass mass_of(const abut::Sphere& sphere, double density);
+Mass mass_of(const abut::Capsule& capsule, double density);
+Mass mass_of(const abut::Box3& box, double density);
+/// Accuracy    exact integrals over tetrahedra, to rounding.
+/// Errors      of this and the next two: Error{bad_argument} if the surface encloses no volume,
+///             for example because it is open or inside out.
+Mass mass_of(const abut::Mesh& mesh, double density);
+Mass mass_of(const abut::Model& model, double density);
+Mass mass_of(const abut::Convex& convex, double density);
+
+} // namespace simulation
