@@ -5,6 +5,7 @@
 #include "mesh/topology.h"
 
 #include <algorithm>
+#include <tbb/global_control.h>
 
 namespace abut {
 
@@ -14,19 +15,21 @@ float margin_of(double distance) {
 
 CandidateSearch::CandidateSearch(const DeformableData& a, const SweptTree& swept_a,
                                  const DeformableData& b, const SweptTree& swept_b, double distance)
-    : a_(a), b_(b), swept_a_(swept_a), swept_b_(swept_b), margin_(margin_of(distance)) {
+    : a_(a), b_(b), swept_a_(swept_a), swept_b_(swept_b), leaves_a_(a, swept_a),
+      leaves_b_(b, swept_b), margin_(margin_of(distance)) {
     split(Between::triangles, between_triangles());
 }
 
 CandidateSearch::CandidateSearch(const DeformableData& a, const DeformableData& b, double distance)
-    : a_(a), b_(b), swept_a_(a.swept), swept_b_(b.swept), margin_(margin_of(distance)),
-      scheme_(a.options.scheme) {
+    : a_(a), b_(b), swept_a_(a.swept), swept_b_(b.swept), leaves_a_(a, swept_a_),
+      leaves_b_(b, swept_b_), margin_(margin_of(distance)), scheme_(a.options.scheme) {
     if (scheme_ != b.options.scheme)
         throw Error(ErrorCode::bad_argument, "the surfaces have different schemes");
     if (a.options.culling != b.options.culling)
         throw Error(ErrorCode::bad_argument, "the surfaces have different cullings");
     if (scheme_ == Scheme::database)
-        tested_ = std::make_unique<ConcurrentSet>();
+        tested_ = std::make_unique<ConcurrentSet>(
+            tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) == 1);
     if (scheme_ == Scheme::features)
         split_features();
     else if (a.options.culling == Culling::grid)

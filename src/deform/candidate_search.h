@@ -5,6 +5,7 @@
 #include "core/concurrent_set.h"
 #include "deform/feature_pairs.h"
 #include "deform/feature_trees.h"
+#include "deform/leaf_boxes.h"
 #include "deform/leaf_pairs.h"
 #include "deform/triangle_culling.h"
 #include "deform/triangle_pairs.h"
@@ -68,6 +69,7 @@ private:
     const DeformableData& b_;
     const SweptTree& swept_a_;
     const SweptTree& swept_b_;
+    LeafSource leaves_a_, leaves_b_;
     float margin_;
     Scheme scheme_ = Scheme::representative;
     std::vector<Start> starts_;
@@ -79,8 +81,9 @@ private:
 template <typename Sink>
 void CandidateSearch::run(std::size_t task, Sink& sink, DeformableCounters* counters) const {
     FeaturePairs<Sink> pairs(a_, b_, sink);
-    const bool represented = scheme_ == Scheme::representative || scheme_ == Scheme::markup;
-    const bool boxes = scheme_ == Scheme::representative || scheme_ == Scheme::database;
+    const bool represented = scheme_ == Scheme::representative || scheme_ == Scheme::pairwise ||
+                             scheme_ == Scheme::markup;
+    const bool boxes = a_.compares_boxes_of_pairs();
     TrianglePairs<Sink> triangles(a_, b_, {represented, boxes, margin_, tested_.get()}, pairs);
     std::uint64_t triangle_pairs = 0;
     if (culling_) {
@@ -91,9 +94,9 @@ void CandidateSearch::run(std::size_t task, Sink& sink, DeformableCounters* coun
     } else {
         const OverlapTraversal traversal = between_triangles();
         if (scheme_ == Scheme::representative) {
-            RepresentativePairs<Sink> visitor(swept_a_.leaves, swept_b_.leaves, margin_, pairs,
-                                              counters != nullptr ? &triangle_pairs : nullptr);
+            RepresentativePairs<Sink> visitor(leaves_a_, leaves_b_, margin_, pairs);
             traverse_overlaps(traversal, starts_[task].pair, visitor);
+            triangle_pairs = visitor.triangle_pairs();
         } else {
             LeafTrianglePairs visitor(swept_a_.leaves, swept_b_.leaves, margin_, triangles);
             traverse_overlaps(traversal, starts_[task].pair, visitor);

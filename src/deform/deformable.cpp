@@ -4,6 +4,7 @@
 #include "core/parallel.h"
 #include "deform/deformable_data.h"
 #include "deform/feature_trees.h"
+#include "deform/leaf_boxes.h"
 #include "math/vector.h"
 #include "mesh/topology.h"
 
@@ -55,12 +56,25 @@ std::vector<Aabb> vertex_boxes(std::span<const MovingVertex> vertices, StepEnd e
     return boxes;
 }
 
+/// The vertices' boxes at both ends of the step.
+std::vector<MovingBox> moving_boxes(std::span<const MovingVertex> vertices) {
+    std::vector<MovingBox> boxes(vertices.size());
+    parallel_for(vertices.size(), kGrain, [&](std::size_t i) {
+        const MovingVertex& v = vertices[i];
+        boxes[i] = {Aabb(Box3{v.start, v.start}), Aabb(Box3{v.end, v.end})};
+    });
+    return boxes;
+}
+
 /// Fits the boxes of one end of the step to the positions at this or the other end.
 void fit_end(SweptTree& swept, const DeformableData& data, StepEnd end, StepEnd positions) {
     const SurfaceView surface = data.surface();
     const std::vector<Aabb> boxes = vertex_boxes(data.vertices, positions);
-    fit(swept.tree, end,
-        [&](std::uint32_t leaf) { return fit_leaf(swept.leaves, leaf, end, surface, boxes); });
+    const bool has_boxes = swept.leaves.has_boxes();
+    fit(swept.tree, end, [&](std::uint32_t leaf) {
+        return has_boxes ? fit_leaf(swept.leaves, leaf, end, surface, boxes)
+                         : box_of_leaf(swept.leaves, leaf, surface, boxes);
+    });
 }
 
 /// Makes all boxes at the end those at the start.
@@ -72,6 +86,8 @@ void start_at_end(SweptTree& swept) {
             std::copy_n(rows[MovingBoxRun::kEnd + row], MovingNode::kWidth, rows[row]);
     });
     LeafFeatures& leaves = swept.leaves;
+    if (!leaves.has_boxes())
+        return;
     parallel_for(leaves.faces.leaves(), kBoxesAtOnce, [&](std::size_t i) {
         const auto leaf = static_cast<std::uint32_t>(i);
         for (FeatureRuns* runs : {&leaves.faces, &leaves.edges, &leaves.vertices})
@@ -84,6 +100,7 @@ void start_at_end(SweptTree& swept) {
 void fit_at(SweptTree& swept, const DeformableData& data, StepEnd end) {
     fit_end(swept, data, StepEnd::end, end);
     start_at_end(swept);
+    swept.fitted_to = {end, end};
 }
 
 DeformableData::DeformableData() = default;
@@ -104,6 +121,7 @@ void DeformableData::build() {
     swept = SweptTree();
     flat_regions = FlatRegions();
     feature_trees.reset();
+    feature_boxes.reset();
     rest_model.forget();
     find_edges_of_triangles();
     {
@@ -112,12 +130,10 @@ void DeformableData::build() {
         swept.leaves = LeafFeatures(shape, surface(), represented);
     }
     flat_regions = FlatRegions(swept.tree, swept.leaves.faces, surface());
-    const bool spawns_from_leaves =
-        options.scheme == Scheme::features ||
-        (options.scheme == Scheme::representative && options.culling == Culling::tree);
-    if (spawns_from_leaves)
+    if (searches_leaves() || options.scheme == Scheme::features)
         features.edges_of = std::vector<IndexTriangle>(); // `{}` would keep its memory
-    swept.leaves.allocate_boxes();
+    if (!(options.lean && searches_leaves()))
+        swept.leaves.allocate_boxes();
     if (options.scheme == Scheme::features)
         feature_trees = std::make_unique<FeatureTrees>(surface(), swept_vertex_boxes(vertices));
     fit_boxes(FirstBoxes::unknown);
@@ -133,6 +149,9 @@ void DeformableData::fit_boxes(FirstBoxes first) {
     if (feature_trees)
         for (const StepEnd end : kStepEnds)
             feature_trees->fit(surface(), end, vertex_boxes(vertices, end));
+    if (compares_boxes_of_pairs())
+        feature_boxes =
+            std::make_unique<FeatureBoxes>(moving_boxes(vertices), features.edges, triangles);
     flat_regions.fit(swept.leaves.faces, triangles, vertices);
 }
 
@@ -151,6 +170,19 @@ void DeformableData::refit(FirstBoxes first) {
     fit_boxes(first);
     if (looseness() > kMostLooseness * looseness_when_built_)
         build();
+}
+
+/// The box of the triangle at place k of a leaf.
+MovingBox DeformableData::face_box(std::uint32_t leaf, std::uint32_t k) const {
+    const FeatureRuns& faces = swept.leaves.faces;
+    if (faces.has_boxes())
+        return faces.box(leaf, k);
+    Box3 start, end;
+    for (const std::uint32_t v : triangles[faces.ids(leaf)[k]]) {
+        extend(start, vertices[v].start);
+        extend(end, vertices[v].end);
+    }
+    return {Aabb(start), Aabb(end)};
 }
 
 /// The mean ratio of a node's box to the boxes of its children, and of a leaf's box to those of its
@@ -176,7 +208,7 @@ double DeformableData::looseness() const {
             const std::uint32_t leaf = leaf_number(node.child[i]);
             double faces = 0;
             for (std::uint32_t k = 0; k < swept.leaves.faces.count(leaf); ++k)
-                faces += double{swept.leaves.faces.box(leaf, k).swept().half_area()};
+                faces += double{face_box(leaf, k).swept().half_area()};
             add(box, faces);
         }
         add(moving_tree::bounds_of(node), children);
@@ -280,7 +312,8 @@ std::size_t Deformable::bytes() const noexcept {
            d.features.edges_of.size() * sizeof(d.features.edges_of[0]) + d.represented.size() +
            d.vertices.size() * sizeof(d.vertices[0]) + d.swept.tree.bytes() +
            d.swept.leaves.bytes() + d.flat_regions.bytes() + d.rest_model.bytes() +
-           (d.feature_trees ? d.feature_trees->bytes() : 0);
+           (d.feature_trees ? d.feature_trees->bytes() : 0) +
+           (d.feature_boxes ? d.feature_boxes->bytes() : 0);
 }
 
 } // namespace abut

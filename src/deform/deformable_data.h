@@ -2,12 +2,14 @@
 
 #include <abut/deformable.h>
 
+#include "deform/feature_boxes.h"
 #include "deform/flat_regions.h"
 #include "deform/leaf_features.h"
 #include "deform/rest_model.h"
 #include "mesh/representative_triangles.h"
 #include "tree/moving_tree.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -19,7 +21,9 @@ struct FeatureTrees;
 /// The hierarchy over a surface's swept triangles, and the boxes of the features in its leaves.
 struct SweptTree {
     MovingTree tree;
-    LeafFeatures leaves;
+    LeafFeatures leaves; ///< without boxes if the surface is lean: see leaf_boxes.h
+    /// The positions that the boxes at the start and at the end enclose. See fit_at().
+    std::array<StepEnd, 2> fitted_to{StepEnd::start, StepEnd::end};
 };
 
 /// The boxes at the start of a step.
@@ -44,9 +48,19 @@ public:
     SweptTree swept;
     FlatRegions flat_regions;                    ///< of the nodes of `swept`
     std::unique_ptr<FeatureTrees> feature_trees; ///< for Scheme::features
+    std::unique_ptr<FeatureBoxes> feature_boxes; ///< if `compares_boxes_of_pairs`
     RestModel rest_model;                        ///< made when it is first asked for
 
     [[nodiscard]] SurfaceView surface() const { return {vertices.size(), triangles, features}; }
+    /// Whether the leaves of the hierarchy are searched, not pairs of triangles or of features.
+    [[nodiscard]] bool searches_leaves() const {
+        return options.scheme == Scheme::representative && options.culling == Culling::tree;
+    }
+    /// Whether pairs of triangles are taken one by one, and the boxes of their features compared.
+    [[nodiscard]] bool compares_boxes_of_pairs() const {
+        return options.scheme == Scheme::pairwise || options.scheme == Scheme::database ||
+               (options.scheme == Scheme::representative && options.culling != Culling::tree);
+    }
     /// Whether no vertex moves in this step.
     [[nodiscard]] bool is_at_rest() const;
 
@@ -61,6 +75,7 @@ public:
 
 private:
     void fit_boxes(FirstBoxes first);
+    [[nodiscard]] MovingBox face_box(std::uint32_t leaf, std::uint32_t k) const;
     [[nodiscard]] double looseness() const;
 
     double looseness_when_built_ = 0;

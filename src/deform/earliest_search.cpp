@@ -139,9 +139,9 @@ private:
 /// Visits pairs of leaves until the window's end.
 class WindowLeafPairs final : public UntilVisitor {
 public:
-    WindowLeafPairs(const LeafFeatures& a, const LeafFeatures& b, float margin,
+    WindowLeafPairs(const LeafSource& a, const LeafSource& b, float margin,
                     FeaturePairs<WindowCollector>& pairs, const TimeWindow& window)
-        : leaves_(a, b, margin, pairs, nullptr), window_(window) {}
+        : leaves_(a, b, margin, pairs), window_(window) {}
 
     [[nodiscard]] float until() const override { return window_.until(); }
     bool visit(std::uint32_t i, std::uint32_t j) override {
@@ -179,7 +179,8 @@ void EarliestImpact::keep(const FeatureImpact& other) {
 
 EarliestSearch::EarliestSearch(const DeformableData& a, const DeformableData& b,
                                const ElementaryOptions& options)
-    : a_(a), b_(b), options_(options), traversal_{a.swept.tree, b.swept.tree} {
+    : a_(a), b_(b), options_(options), leaves_a_(a, a.swept),
+      leaves_b_(b, b.swept), traversal_{a.swept.tree, b.swept.tree} {
     double largest = 0;
     for (const MovingTree* tree : {&a.swept.tree, &b.swept.tree})
         if (!tree->empty())
@@ -198,7 +199,7 @@ void EarliestSearch::run(std::span<const TimedPair> starts, TimeWindow& window,
     EarliestKeeper keeper{window, earliest};
     WindowCollector collector(a_, b_, options_, reach_ + slack_, keeper);
     FeaturePairs<WindowCollector> pairs(a_, b_, collector);
-    WindowLeafPairs visitor(a_.swept.leaves, b_.swept.leaves, traversal_.margin, pairs, window);
+    WindowLeafPairs visitor(leaves_a_, leaves_b_, traversal_.margin, pairs, window);
     for (const TimedPair& start : starts)
         traverse_until(traversal_, start, visitor, later);
     collector.finish();

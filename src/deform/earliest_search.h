@@ -3,6 +3,7 @@
 #include <abut/deformable.h>
 
 #include "deform/deformable_data.h"
+#include "deform/leaf_boxes.h"
 #include "tree/traverse_until.h"
 
 #include <atomic>
@@ -55,6 +56,7 @@ private:
     const DeformableData& a_;
     const DeformableData& b_;
     const ElementaryOptions& options_;
+    LeafSource leaves_a_, leaves_b_;
     /// Features that are reported as an impact at some time are at most this far apart then.
     double reach_;
     double slack_; ///< bounds what rounded positions add to the distance of two features

@@ -4,13 +4,10 @@
 
 #include "ccd/elementary_batch.h"
 #include "deform/deformable_data.h"
-#include "math/vector.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
 
 namespace abut {
 
@@ -19,11 +16,19 @@ struct FeatureIds {
     std::uint32_t a = 0, b = 0;
 };
 
-/// The sort key of a query's list, of FeatureImpact or FeaturePair. No two entries of a list have
-/// equal keys.
+/// The lower number first. Written without a branch, which would be a coin toss for the edges of two
+/// leaves.
+inline FeatureIds in_order(std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t change = (a ^ b) & (0U - static_cast<std::uint32_t>(b < a));
+    return {a ^ change, b ^ change};
+}
+
+/// The sort key of a query's list, of FeatureImpact or FeaturePair: kind, face_first, a, b. No two
+/// entries of a list have equal keys. Numbers of features are below 3 * 2^28, so 30 bits hold each.
 template <typename Found>
-auto list_key(const Found& found) {
-    return std::tuple(found.kind, found.face_first, found.a, found.b);
+std::uint64_t list_key(const Found& found) {
+    return static_cast<std::uint64_t>(found.kind) << 61 | std::uint64_t{found.face_first} << 60 |
+           std::uint64_t{found.a} << 30 | found.b;
 }
 
 using PairVertices = std::array<const MovingVertex*, 4>; ///< in the order of ElementaryPair
@@ -62,14 +67,18 @@ public:
     /// Whether two features of one surface share a vertex. Without branches: of the pairs of
     /// neighbouring leaves, about half do, which a processor cannot predict.
     [[nodiscard]] bool are_neighbours(FeatureIds ids) const {
+        // As arithmetic, because g++ 12 turns comparisons that are combined by bits into branches.
+        const auto differ = [](std::uint32_t u, std::uint32_t v) {
+            const std::uint32_t bits = u ^ v;
+            return (bits | (0U - bits)) >> 31;
+        };
         if constexpr (kind == ElementaryKind::edge_edge) {
             const auto &e = a_.features.edges[ids.a], &f = b_.features.edges[ids.b];
-            return static_cast<bool>(unsigned{e[0] == f[0]} | unsigned{e[0] == f[1]} |
-                                     unsigned{e[1] == f[0]} | unsigned{e[1] == f[1]});
+            return (differ(e[0], f[0]) & differ(e[0], f[1]) & differ(e[1], f[0]) &
+                    differ(e[1], f[1])) == 0;
         } else {
             const IndexTriangle& f = b_.triangles[ids.b];
-            return static_cast<bool>(unsigned{f[0] == ids.a} | unsigned{f[1] == ids.a} |
-                                     unsigned{f[2] == ids.a});
+            return (differ(f[0], ids.a) & differ(f[1], ids.a) & differ(f[2], ids.a)) == 0;
         }
     }
 
@@ -77,10 +86,6 @@ private:
     const DeformableData& a_; ///< the first feature's surface
     const DeformableData& b_;
 };
-
-/// Whether, on some axis, the boxes of both features are farther apart than a margin at both ends
-/// of the motion, on the same side. They then are so throughout.
-bool boxes_apart(ElementaryKind kind, const PairVertices& vertices, double margin);
 
 /// The kinds of feature pairs between two surfaces a and b.
 enum class PairKind : std::uint8_t {
@@ -111,9 +116,8 @@ public:
     /// Two edges. In: admits, which tells whether to test a pair whose features share no vertex.
     template <typename Admits = AdmitAll>
     void edges(std::uint32_t a, std::uint32_t b, const Admits& admits = {}) {
-        const FeatureIds ids =
-            is_self_ ? FeatureIds{std::min(a, b), std::max(a, b)} : FeatureIds{a, b};
-        hand_over(PairKind::edges, ids, edges_, counts_.edge_edge, admits);
+        hand_over(PairKind::edges, is_self_ ? in_order(a, b) : FeatureIds{a, b}, edges_,
+                  counts_.edge_edge, admits);
     }
     /// A vertex of the first surface and a face of the second.
     template <typename Admits = AdmitAll>

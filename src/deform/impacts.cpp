@@ -5,6 +5,9 @@
 #include "deform/impact_collector.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace abut {
 
@@ -30,10 +33,33 @@ void add(Impacts& sum, const Impacts& part) {
     sum.counters.exact_fallbacks += part.counters.exact_fallbacks;
 }
 
+/// Where an impact with this key is in an unsorted list.
+struct KeyedPlace {
+    std::uint64_t key = 0;
+    std::size_t place = 0;
+    friend bool operator<(const KeyedPlace& a, const KeyedPlace& b) { return a.key < b.key; }
+};
+
+/// Sorts keys in place of impacts, which are large, and then moves each impact once.
 void sort(std::vector<FeatureImpact>& list) {
-    std::sort(list.begin(), list.end(), [](const FeatureImpact& a, const FeatureImpact& b) {
-        return list_key(a) < list_key(b);
-    });
+    std::vector<KeyedPlace> order(list.size());
+    for (std::size_t i = 0; i < list.size(); ++i)
+        order[i] = {list_key(list[i]), i};
+    parallel_sort(order.begin(), order.end());
+    // Each round fills the places of one cycle of the permutation.
+    for (std::size_t first = 0; first < list.size(); ++first) {
+        if (order[first].place == first)
+            continue;
+        const FeatureImpact moved = list[first];
+        std::size_t to = first;
+        for (std::size_t from = order[to].place; from != first; from = order[to].place) {
+            list[to] = list[from];
+            order[to].place = to;
+            to = from;
+        }
+        list[to] = moved;
+        order[to].place = to;
+    }
     // Schemes without representatives find some impacts several times.
     const auto last =
         std::unique(list.begin(), list.end(), [](const FeatureImpact& a, const FeatureImpact& b) {

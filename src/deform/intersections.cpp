@@ -3,6 +3,7 @@
 #include "core/parallel.h"
 #include "core/stop.h"
 #include "deform/deformable_data.h"
+#include "deform/leaf_boxes.h"
 #include "geometry/segment_triangle_contact.h"
 #include "tree/traverse_overlaps.h"
 
@@ -63,16 +64,16 @@ class EdgeFaceLeaves final : public OverlapVisitor {
 public:
     EdgeFaceLeaves(const SurfaceAtRest& a, const SurfaceAtRest& b,
                    std::vector<EdgeFaceIntersection>& list)
-        : a_(a), b_(b), is_self_(&a == &b), list_(list) {}
+        : a_(a), b_(b), source_a_(a.surface(), a.swept()), source_b_(b.surface(), b.swept()),
+          leaves_a_(source_a_), leaves_b_(source_b_), is_self_(&a == &b), list_(list) {}
 
     bool visit(std::uint32_t i, std::uint32_t j) override {
         poll_stop();
         const bool same = is_self_ && i == j;
         auto& [edges_first, faces_first] = overlaps_;
-        edges_first.a = a_.swept().leaves.edges.run(i);
-        edges_first.b = b_.swept().leaves.faces.run(j);
-        faces_first.a = b_.swept().leaves.edges.run(j);
-        faces_first.b = a_.swept().leaves.faces.run(i);
+        const LeafRuns leaf_a = leaves_a_.runs(i), leaf_b = leaves_b_.runs(j);
+        edges_first.a = leaf_a.edges, edges_first.b = leaf_b.faces;
+        faces_first.a = leaf_b.edges, faces_first.b = leaf_a.faces;
         find_overlaps(std::span(overlaps_).first(same ? 1 : 2), 0);
         edges_first.for_each([&](auto edge, auto face) { test(a_, edge, b_, face, false); });
         if (!same)
@@ -103,6 +104,8 @@ private:
 
     const SurfaceAtRest& a_;
     const SurfaceAtRest& b_;
+    LeafSource source_a_, source_b_;
+    LeafBoxes leaves_a_, leaves_b_;
     bool is_self_;
     std::vector<EdgeFaceIntersection>& list_;
     std::array<RunOverlaps, 2> overlaps_;

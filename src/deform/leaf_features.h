@@ -26,10 +26,12 @@ public:
     void add(std::uint32_t id) { ids_.push_back(id); }
     /// Ends a leaf: the features added since the previous call belong to it.
     void end_leaf() { begin_.push_back(static_cast<std::uint32_t>(ids_.size())); }
+    /// Without this, the features have no boxes.
     void allocate_boxes() {
         rows_.assign(MovingBoxRun::kRows * ids_.size() + MovingBoxRun::kPadding, 0.0F);
     }
 
+    [[nodiscard]] bool has_boxes() const { return !rows_.empty(); }
     [[nodiscard]] std::size_t leaves() const { return begin_.size() - 1; }
     [[nodiscard]] std::uint32_t count(std::uint32_t leaf) const {
         return begin_[leaf + 1] - begin_[leaf];
@@ -83,6 +85,7 @@ struct LeafFeatures {
                  std::span<const Represented> represented);
 
     void allocate_boxes();
+    [[nodiscard]] bool has_boxes() const { return faces.has_boxes(); }
     [[nodiscard]] std::size_t bytes() const {
         return faces.bytes() + edges.bytes() + vertices.bytes();
     }

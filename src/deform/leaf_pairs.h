@@ -1,7 +1,7 @@
 #pragma once
 
 #include "deform/feature_pairs.h"
-#include "deform/leaf_features.h"
+#include "deform/leaf_boxes.h"
 #include "deform/triangle_pairs.h"
 #include "tree/traverse_overlaps.h"
 #include "volume/moving_box.h"
@@ -14,15 +14,14 @@
 namespace abut {
 
 /// Turns a pair of overlapping leaves into candidate feature pairs. A feature's box lies within
-/// that of the triangle that represents it, so the triangle pairs themselves need no test. They are
-/// found only to be counted.
+/// that of the triangle that represents it, so two leaves without a pair of overlapping triangles
+/// have no candidates. Beyond that, candidates do not depend on which triangles overlap.
 template <typename Sink>
 class RepresentativePairs final : public OverlapVisitor {
 public:
-    /// In: a counter of triangle pairs, or null.
-    RepresentativePairs(const LeafFeatures& a, const LeafFeatures& b, float margin,
-                        FeaturePairs<Sink>& pairs, std::uint64_t* triangle_pairs)
-        : a_(a), b_(b), margin_(margin), pairs_(pairs), triangle_pairs_(triangle_pairs) {}
+    RepresentativePairs(const LeafSource& a, const LeafSource& b, float margin,
+                        FeaturePairs<Sink>& pairs)
+        : a_(a), b_(b), margin_(margin), pairs_(pairs) {}
 
     /// Leaves out pairs of features that do not overlap until this time (see find_overlaps).
     void set_until(float until) { until_ = until; }
@@ -30,31 +29,37 @@ public:
     bool visit(std::uint32_t i, std::uint32_t j) override {
         const bool same = pairs_.is_self() && i == j;
         auto& [faces, edges, vertex_face, vertex_of_b] = overlaps_;
-        faces.a = a_.faces.run(i), faces.b = b_.faces.run(j);
-        edges.a = a_.edges.run(i), edges.b = b_.edges.run(j);
-        vertex_face.a = a_.vertices.run(i), vertex_face.b = faces.b;
-        vertex_of_b.a = b_.vertices.run(j), vertex_of_b.b = faces.a;
-        const std::size_t first = triangle_pairs_ != nullptr ? 0 : 1, last = same ? 3 : 4;
-        find_overlaps(std::span(overlaps_).subspan(first, last - first), margin_, until_);
+        const LeafRuns a = a_.runs(i), b = b_.runs(j);
+        faces.a = a.faces, faces.b = b.faces;
+        find_overlaps(std::span(overlaps_).first(1), margin_, until_);
         if (same)
-            faces.keep_once(), edges.keep_once();
+            faces.keep_once();
+        const std::uint32_t triangle_pairs = faces.count();
+        triangle_pairs_ += triangle_pairs;
+        if (triangle_pairs == 0)
+            return true;
 
-        if (triangle_pairs_ != nullptr)
-            *triangle_pairs_ += faces.count();
+        edges.a = a.edges, edges.b = b.edges;
+        vertex_face.a = a.vertices, vertex_face.b = b.faces;
+        vertex_of_b.a = b.vertices, vertex_of_b.b = a.faces;
+        find_overlaps(std::span(overlaps_).subspan(1, same ? 2 : 3), margin_, until_);
+        if (same)
+            edges.keep_once();
         edges.for_each([&](auto e, auto f) { pairs_.edges(e, f); });
         vertex_face.for_each([&](auto v, auto f) { pairs_.vertex_face(v, f); });
         if (!same)
             vertex_of_b.for_each([&](auto v, auto f) { pairs_.face_vertex(f, v); });
         return !pairs_.is_done();
     }
+    /// The pairs of triangles whose boxes overlap, of all pairs of leaves so far.
+    [[nodiscard]] std::uint64_t triangle_pairs() const { return triangle_pairs_; }
 
 private:
-    const LeafFeatures& a_;
-    const LeafFeatures& b_;
+    LeafBoxes a_, b_;
     float margin_;
     float until_ = 1;
     FeaturePairs<Sink>& pairs_;
-    std::uint64_t* triangle_pairs_;
+    std::uint64_t triangle_pairs_ = 0;
     std::array<RunOverlaps, 4> overlaps_;
 };
 

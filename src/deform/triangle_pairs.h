@@ -1,10 +1,14 @@
 #pragma once
 
 #include "core/concurrent_set.h"
+#include "deform/feature_boxes.h"
 #include "deform/feature_pairs.h"
 #include "mesh/representative_triangles.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace abut {
 
@@ -41,9 +45,22 @@ public:
 
     bool visit(std::uint32_t a, std::uint32_t b) override {
         ++count_;
-        const auto admits = [this](PairKind kind, FeatureIds ids) {
-            return this->admits(kind, ids);
-        };
+        if (rules_.tested == nullptr)
+            spawn(a, b, [this](PairKind kind, FeatureIds ids) { return may_meet(kind, ids); });
+        else
+            spawn_untested(a, b);
+        return !pairs_.is_done();
+    }
+
+private:
+    /// A feature pair that has to be looked up.
+    struct Lookup {
+        PairKind kind = PairKind::edges;
+        FeatureIds ids;
+    };
+
+    template <typename Admits>
+    void spawn(std::uint32_t a, std::uint32_t b, const Admits& admits) {
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t k = 0; k < 3; ++k)
                 if (spawns_edge(a_, a, i) && spawns_edge(b_, b, k))
@@ -54,28 +71,40 @@ public:
         for (std::size_t i = 0; i < 3; ++i)
             if (spawns_vertex(b_, b, i))
                 pairs_.face_vertex(a, b_.triangles[b][i], admits);
-        return !pairs_.is_done();
     }
-
-private:
-    /// Whether a pair satisfies the rules on boxes and on tested pairs.
-    [[nodiscard]] bool admits(PairKind kind, FeatureIds ids) const {
-        if (rules_.boxes && are_apart(kind, ids))
+    /// Fetches the table's entries for all feature pairs before it looks at the first one, so that
+    /// one wait for memory serves them all.
+    void spawn_untested(std::uint32_t a, std::uint32_t b) {
+        std::array<Lookup, 15> lookups;
+        std::size_t count = 0;
+        spawn(a, b, [&](PairKind kind, FeatureIds ids) {
+            if (may_meet(kind, ids)) {
+                rules_.tested->prefetch(key(kind, ids));
+                lookups[count++] = {kind, ids};
+            }
             return false;
-        return rules_.tested == nullptr || rules_.tested->insert(key(kind, ids));
+        });
+        const auto is_new = [this](PairKind kind, FeatureIds ids) {
+            return rules_.tested->insert(key(kind, ids));
+        };
+        for (const Lookup& each : std::span(lookups).first(count))
+            if (each.kind == PairKind::edges)
+                pairs_.edges(each.ids.a, each.ids.b, is_new);
+            else if (each.kind == PairKind::vertex_face)
+                pairs_.vertex_face(each.ids.a, each.ids.b, is_new);
+            else
+                pairs_.face_vertex(each.ids.b, each.ids.a, is_new);
+    }
+    [[nodiscard]] bool may_meet(PairKind kind, FeatureIds ids) const {
+        return !rules_.boxes || !are_apart(kind, ids);
     }
     [[nodiscard]] bool are_apart(PairKind kind, FeatureIds ids) const {
-        const double margin{rules_.margin};
+        const FeatureBoxes &a = *a_.feature_boxes, &b = *b_.feature_boxes;
         if (kind == PairKind::edges)
-            return boxes_apart(ElementaryKind::edge_edge,
-                               PairGeometry<ElementaryKind::edge_edge>(a_, b_).vertices(ids),
-                               margin);
-        const bool face_first = kind == PairKind::face_vertex;
-        return boxes_apart(
-            ElementaryKind::vertex_face,
-            PairGeometry<ElementaryKind::vertex_face>(face_first ? b_ : a_, face_first ? a_ : b_)
-                .vertices(ids),
-            margin);
+            return abut::are_apart(a.edges[ids.a], b.edges[ids.b], rules_.margin);
+        if (kind == PairKind::vertex_face)
+            return abut::are_apart(a.vertices[ids.a], b.faces[ids.b], rules_.margin);
+        return abut::are_apart(b.vertices[ids.a], a.faces[ids.b], rules_.margin);
     }
     [[nodiscard]] bool spawns_edge(const DeformableData& of, std::uint32_t triangle,
                                    std::size_t k) const {

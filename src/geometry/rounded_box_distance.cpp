@@ -7,6 +7,7 @@
 #include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace abut {
@@ -186,9 +187,40 @@ bool is_point(const RoundedBox& box) {
     return box.half == std::array<double, 3>{};
 }
 
+/// Half of a segment; zero of a box that has another extent.
+Vec3 half_of_segment(const RoundedBox& box) {
+    const auto& half = box.half;
+    if (std::count(half.begin(), half.end(), 0.0) != 2)
+        return {};
+    const auto k =
+        static_cast<std::size_t>(std::max_element(half.begin(), half.end()) - half.begin());
+    return half[k] * box.axis[k];
+}
+
+/// The gap of two segments with radii that are clearly apart: then no axis is needed.
+std::optional<SolidGap> gap_of_apart_segments(const RoundedBox& a, const RoundedBox& b) {
+    const Vec3 along_a = half_of_segment(a), along_b = half_of_segment(b);
+    if (along_a == Vec3{} || along_b == Vec3{})
+        return std::nullopt;
+    const Vec3 u = 2 * along_a, v = 2 * along_b, r = (b.centre - a.centre) + (along_a - along_b);
+    const SegmentPoints closest = nearest_on_segments(u, v, r);
+    // The direction of a shorter distance is rounded too much.
+    constexpr double kClearlySq = 0x1p-60;
+    if (!(closest.distance_sq > kClearlySq * (length_sq(u) + length_sq(v))))
+        return std::nullopt;
+    // From the difference of the centres, which far from the origin is rounded less than points.
+    const Vec3 way = (r + closest.t * v) - closest.s * u;
+    const double distance = length(way);
+    const Candidate points{closest.distance_sq, a.centre + (2 * closest.s - 1) * along_a,
+                           b.centre + (2 * closest.t - 1) * along_b};
+    return with_radii(a, b, distance, points, (1 / distance) * way);
+}
+
 } // namespace
 
 SolidGap rounded_box_distance(const RoundedBox& a, const RoundedBox& b, double upper_bound) {
+    if (const std::optional<SolidGap> gap = gap_of_apart_segments(a, b))
+        return *gap;
     const bool points = is_point(a) && is_point(b);
     const LeastOverlap least = points ? LeastOverlap() : least_overlap(a, b);
     // Slightly less than the axis tells, because that is rounded.

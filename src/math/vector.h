@@ -1,6 +1,6 @@
 #pragma once
 
-#include <abut/types.h>
+#include <abut/vector.h>
 
 #include <algorithm>
 #include <array>
@@ -10,30 +10,14 @@ namespace abut {
 
 using Triangle = std::array<Vec3, 3>;
 
-inline Vec3 operator+(const Vec3& a, const Vec3& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-inline Vec3 operator-(const Vec3& a, const Vec3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
+using vectors::cross, vectors::dot, vectors::length;
+using vectors::operator+, vectors::operator-, vectors::operator*;
+
 inline Vec3 operator-(const Vec3& a) {
     return {-a.x, -a.y, -a.z};
 }
-inline Vec3 operator*(double s, const Vec3& a) {
-    return {s * a.x, s * a.y, s * a.z};
-}
-
-inline double dot(const Vec3& a, const Vec3& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-inline Vec3 cross(const Vec3& a, const Vec3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 inline double length_sq(const Vec3& a) {
     return dot(a, a);
-}
-inline double length(const Vec3& a) {
-    return std::sqrt(length_sq(a));
 }
 inline Vec3 normalized_or_zero(const Vec3& a) {
     const double l = length(a);

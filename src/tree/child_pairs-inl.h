@@ -11,6 +11,8 @@
 #include "math/lanes-inl.h"
 #include "tree/node_pair-inl.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 // Code that does not depend on the SIMD target; compiled once.
@@ -46,12 +48,12 @@ struct MiddleBoxes {
 };
 
 /// The children of one node of a pair, in the node's own frame and in the other node's.
-struct Siblings {
-    MiddleBoxes own{}, seen{};
+struct Siblings { // NOLINT(cppcoreguidelines-pro-type-member-init): written before it is read
+    MiddleBoxes own, seen;
     /// How far each child extends along the direction n, in world units: the largest n . x. The
     /// direction points towards the other node. The gap along n between two children is at least
     /// -(advance of one + advance of the other).
-    HWY_ALIGN float advance[Node::kWidth] = {};
+    HWY_ALIGN float advance[Node::kWidth];
     std::uint32_t used = 0;                                ///< lanes with a child
     float margin = 0, stretch_sq = 0, most_stretch_sq = 0; ///< of distances in the node's own frame
 };
@@ -64,9 +66,8 @@ HWY_INLINE std::uint32_t leaf_lanes(const Node& node) {
     return lanes;
 }
 
-/// Fills `s` with the children of a node, in the node's own frame and in the other's.
-HWY_INLINE void see_children(const Node& node, const FrameMap& to_own, const FrameMap& to_other,
-                             Siblings& s) {
+/// Sets all of `s` but `advance` and the margin and stretches of the node's own frame.
+HWY_INLINE void see_children(const Node& node, const FrameMap& to_other, Siblings& s) {
     const Lanes8 d;
     const auto half = hn::Set(d, 0.5F);
     for (std::size_t lane = 0; lane < Node::kWidth; lane += hn::Lanes(d)) {
@@ -92,71 +93,87 @@ HWY_INLINE void see_children(const Node& node, const FrameMap& to_own, const Fra
             hn::Store(h, d, s.seen.half[i] + lane);
         }
     }
+}
+
+HWY_INLINE void take_margins(const FrameMap& to_own, Siblings& s) {
     s.margin = to_own.margin;
     s.stretch_sq = to_own.stretch_sq;
     s.most_stretch_sq = to_own.most_stretch_sq;
 }
+/// Fills `s` with the children of a node, in the node's own frame and in the other's.
+HWY_INLINE void see_children(const Node& node, const FrameMap& to_own, const FrameMap& to_other,
+                             Siblings& s) {
+    see_children(node, to_other, s);
+    take_margins(to_own, s);
+}
 
-/// The children of both nodes.
-struct ChildPairs {
-    Siblings p, q;
-
-    HWY_INLINE ChildPairs(const NodePair& nodes, const Node& node_p, const Node& node_q) {
-        see_children(node_p, nodes.p_from_q, nodes.q_from_p, p);
-        see_children(node_q, nodes.q_from_p, nodes.p_from_q, q);
-    }
-
-    /// Computes `advance` of all children for the nodes' direction.
-    HWY_INLINE void take_direction(const NodePair& nodes) {
-        // Centres of both are taken in p's frame.
-        advance(p.own.centre, nodes.n_p, p.own.half, nodes.n_p, 1,
-                (std::abs(nodes.n_p[0]) + std::abs(nodes.n_p[1]) + std::abs(nodes.n_p[2])) *
-                    p.margin,
-                p.advance);
-        advance(q.seen.centre, nodes.n_p, q.own.half, nodes.n_q, -1, 0, q.advance);
-    }
-
-private:
-    static HWY_INLINE void advance(const float (&centre)[3][Node::kWidth], const Covector& n_centre,
-                                   const float (&extent)[3][Node::kWidth], const Covector& n_extent,
-                                   float sign, float margin, float* result) {
-        const Lanes8 d;
-        for (std::size_t lane = 0; lane < Node::kWidth; lane += hn::Lanes(d)) {
-            auto sum = hn::Set(d, margin);
-            for (std::size_t i = 0; i < 3; ++i) {
-                sum =
-                    hn::MulAdd(hn::Set(d, sign * n_centre[i]), hn::Load(d, centre[i] + lane), sum);
-                sum = hn::MulAdd(hn::Set(d, std::abs(n_extent[i])), hn::Load(d, extent[i] + lane),
-                                 sum);
-            }
-            hn::Store(sum, d, result + lane);
-        }
-    }
-};
-
-/// The children that may be near anything below the other node, tested along the other node's axes.
-template <BoxTest test>
-HWY_INLINE std::uint32_t near_node(const Siblings& children, const Siblings& others,
-                                   const Aabb& bounds, float bound_sq) {
+/// The sums sign n_centre . centre + |n_extent| . extent + margin of eight boxes.
+HWY_INLINE void sum_along(const float (&centre)[3][Node::kWidth], const Covector& n_centre,
+                          const float (&extent)[3][Node::kWidth], const Covector& n_extent,
+                          float sign, float margin, float* result) {
     const Lanes8 d;
-    const auto zero = hn::Zero(d), margin = hn::Set(d, others.margin);
+    for (std::size_t lane = 0; lane < Node::kWidth; lane += hn::Lanes(d)) {
+        auto sum = hn::Set(d, margin);
+        for (std::size_t i = 0; i < 3; ++i) {
+            sum = hn::MulAdd(hn::Set(d, sign * n_centre[i]), hn::Load(d, centre[i] + lane), sum);
+            sum = hn::MulAdd(hn::Set(d, std::abs(n_extent[i])), hn::Load(d, extent[i] + lane), sum);
+        }
+        hn::Store(sum, d, result + lane);
+    }
+}
+
+HWY_INLINE float length_1(const Covector& n) {
+    return std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]);
+}
+/// See Siblings::advance. The margin is that of the box's frame.
+HWY_INLINE float advance_of(const Aabb& box, const Covector& n, float margin) {
+    float sum = length_1(n) * margin;
+    for (std::size_t i = 0; i < 3; ++i)
+        sum += 0.5F * (n[i] * (box.upper[i] + box.lower[i]) +
+                       std::abs(n[i]) * (box.upper[i] - box.lower[i]));
+    return sum;
+}
+/// The largest advance of some children. Infinite if one is not a number, which excludes nothing.
+HWY_INLINE float most_of(const float* advance, std::uint32_t lanes) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    float most = -kInfinity;
+    for (const std::uint32_t i : SetBits(lanes))
+        most = std::max(most, std::isnan(advance[i]) ? kInfinity : advance[i]);
+    return most;
+}
+
+/// The children that may be near a box of the other node's frame, tested along its axes.
+///
+/// In          map: from the children's frame to the box's. box_advance: an upper bound of the
+///             box's Siblings::advance, for BoxTest::nearest, and the children's `advance` is set.
+template <BoxTest test>
+HWY_INLINE std::uint32_t near_box(const Siblings& children, const FrameMap& map, const Aabb& box,
+                                  float bound_sq, float box_advance) {
+    const Lanes8 d;
+    const auto zero = hn::Zero(d), margin = hn::Set(d, map.margin);
     std::uint32_t far = 0;
     for (std::size_t lane = 0; lane < Node::kWidth; lane += hn::Lanes(d)) {
         auto gap_sq = zero;
         for (std::size_t i = 0; i < 3; ++i) {
             const auto c = hn::Load(d, children.seen.centre[i] + lane),
                        h = hn::Load(d, children.seen.half[i] + lane);
-            const auto gap = hn::Max(hn::Sub(hn::Set(d, bounds.lower[i]), hn::Add(c, h)),
-                                     hn::Sub(hn::Sub(c, h), hn::Set(d, bounds.upper[i])));
+            const auto gap = hn::Max(hn::Sub(hn::Set(d, box.lower[i]), hn::Add(c, h)),
+                                     hn::Sub(hn::Sub(c, h), hn::Set(d, box.upper[i])));
             const auto certain = hn::Max(zero, hn::Sub(gap, margin));
             gap_sq = test == BoxTest::overlap ? hn::Max(gap_sq, certain)
                                               : hn::MulAdd(certain, certain, gap_sq);
         }
-        far |= bits_of(d, test == BoxTest::overlap
-                              ? hn::Gt(gap_sq, zero)
-                              : hn::Gt(hn::Mul(gap_sq, hn::Set(d, others.stretch_sq)),
-                                       hn::Set(d, bound_sq)))
-               << lane;
+        if constexpr (test == BoxTest::overlap) {
+            far |= bits_of(d, hn::Gt(gap_sq, zero)) << lane;
+            continue;
+        }
+        auto lower_sq = hn::Mul(gap_sq, hn::Set(d, map.stretch_sq));
+        if constexpr (test == BoxTest::nearest) {
+            const auto gap = hn::Max(zero, hn::Neg(hn::Add(hn::Set(d, box_advance),
+                                                           hn::Load(d, children.advance + lane))));
+            lower_sq = hn::Max(lower_sq, hn::Mul(gap, gap));
+        }
+        far |= bits_of(d, hn::Gt(lower_sq, hn::Set(d, bound_sq))) << lane;
     }
     return children.used & ~far;
 }

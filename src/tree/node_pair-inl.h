@@ -9,6 +9,7 @@
 #define ABUT_TREE_NODE_PAIR_INL_H
 #endif
 
+#include "core/set_bits.h"
 #include "math/rounding.h"
 #include "simd/simd.h"
 #include "tree/pair_frame.h"
@@ -80,11 +81,45 @@ struct NodePair {
     FrameMap p_from_q, q_from_p;
     Covector n_p{}, n_q{}; ///< the direction from a to b, as seen in either frame
 
+    /// The maps are still to be set, by between_nodes.
+    HWY_INLINE NodePair() = default;
     HWY_INLINE NodePair(const PairFrame& frame, const Node& p, const Node& q) {
         between_nodes(frame.a_from_b, p, q, p_from_q);
         between_nodes(frame.b_from_a, q, p, q_from_p);
     }
 };
+
+/// Prefetches a node, which will be needed soon, but not next.
+HWY_INLINE void prefetch(NodeRef ref, const Tree& tree) {
+    constexpr std::size_t kLine = 64;
+    if (ref.is_leaf())
+        return;
+    const auto* node = reinterpret_cast<const unsigned char*>(&tree.nodes[ref.index()]);
+    for (std::size_t i = 0; i < sizeof(Node); i += kLine)
+        hwy::Prefetch(node + i);
+}
+
+HWY_INLINE void prefetch_leaves(const Tree& tree, const Node& node, std::uint32_t lanes) {
+    for (const std::uint32_t i : SetBits(lanes)) {
+        const auto* leaf = reinterpret_cast<const unsigned char*>(&tree.leaf(node.child[i]));
+        hwy::Prefetch(leaf);
+        hwy::Prefetch(leaf + 64);
+        hwy::Prefetch(leaf + 128);
+    }
+}
+
+/// The bound for the triangles of two leaves. In: bound_sq is a squared distance in the world.
+HWY_INLINE LeafBound leaf_bound(const NodePair& nodes, float bound_sq) {
+    return {bound_sq / nodes.p_from_q.stretch_sq * (1 + 0x1p-20F), bound_sq, nodes.n_p};
+}
+
+/// The pairs of triangles of two leaves with these counts. Lanes beyond the counts repeat the first
+/// triangle.
+HWY_INLINE std::uint32_t used_pairs(std::uint32_t count_a, std::uint32_t count_b) {
+    constexpr std::uint32_t kRows[] = {0x000f, 0x00ff, 0x0fff, 0xffff};
+    constexpr std::uint32_t kColumns[] = {0x1111, 0x3333, 0x7777, 0xffff};
+    return kRows[count_a - 1] & kColumns[count_b - 1];
+}
 
 /// Compares the triangles of two leaves, which are children of the nodes. Returns the pairs that
 /// may meet and, unless only contacts matter, the pairs that may be within the bound (squared, in
@@ -92,17 +127,10 @@ struct NodePair {
 HWY_INLINE LeafPairs compare_leaves(const Tree& tree_a, NodeRef a, const Tree& tree_b, NodeRef b,
                                     const NodePair& nodes, bool contacts_only, float bound_sq) {
     const TriangleLeaf &leaf_a = tree_a.leaf(a), &leaf_b = tree_b.leaf(b);
-    LeafPairs pairs;
-    if (contacts_only)
-        pairs = meeting_pairs(leaf_a, leaf_b, nodes.p_from_q);
-    else
-        pairs = near_pairs(
-            leaf_a, leaf_b, nodes.p_from_q,
-            {bound_sq / nodes.p_from_q.stretch_sq * (1 + 0x1p-20F), bound_sq, nodes.n_p});
-    // Lanes beyond the leaves' counts repeat the first triangle.
-    constexpr std::uint32_t kRows[] = {0x000f, 0x00ff, 0x0fff, 0xffff};
-    constexpr std::uint32_t kColumns[] = {0x1111, 0x3333, 0x7777, 0xffff};
-    const std::uint32_t used = kRows[a.count() - 1] & kColumns[b.count() - 1];
+    LeafPairs pairs = contacts_only
+                          ? meeting_pairs(leaf_a, leaf_b, nodes.p_from_q)
+                          : near_pairs(leaf_a, leaf_b, nodes.p_from_q, leaf_bound(nodes, bound_sq));
+    const std::uint32_t used = used_pairs(a.count(), b.count());
     pairs.cross &= used;
     pairs.may_meet &= used;
     pairs.may_be_near &= used;

@@ -10,8 +10,9 @@ namespace abut {
 
 /// Maps the boxes of one node's frame to another's, in single precision. The margin bounds the
 /// error: a gap larger than the margin is real.
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): as LeafPlacement
 struct FrameMap : LeafPlacement {
-    alignas(16) std::array<std::array<float, 4>, 3> magnitude{}; ///< |linear|, for half extents
+    alignas(16) std::array<std::array<float, 4>, 3> magnitude; ///< |linear|, for half extents
     float stretch_sq = 0; ///< a squared gap in the target frame, times this, is at most the squared
                           ///< gap in the world
     float most_stretch_sq = 0; ///< a squared distance in the target frame, times this, is at least

@@ -13,6 +13,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tree/traverse_pair.cpp"
 #include "simd/foreach_target.h"
+#include "geometry/leaf/leaf_group-inl.h"
 #include "tree/child_pairs-inl.h"
 
 // Code that does not depend on the SIMD target; compiled once.
@@ -23,6 +24,10 @@ namespace abut::traverse_pair {
 /// A node with more than this many times the other's surface area is opened alone. The value is
 /// about the ratio of areas between two levels of a tree.
 constexpr float kUnlike = 8;
+
+/// Leaves are compared in groups if the bound has not shrunk for this many groups: those of one group
+/// are compared with one bound.
+constexpr std::uint32_t kSettled = 4;
 
 /// A pair of boxes that waits for its test, given by the boxes' names.
 struct BoxPair {
@@ -141,26 +146,50 @@ private:
         const std::uint32_t index_p = open_a ? a.index() : node_of(pair.a),
                             index_q = open_b ? b.index() : node_of(pair.b);
         const Node &p = t_.a.nodes[index_p], &q = t_.b.nodes[index_q];
-        NodePair nodes(t_.frame, p, q);
+        NodePair nodes;
         if (has_direction_) {
             nodes.n_p = p.frame.vector_from_tree(direction_a_);
             nodes.n_q = q.frame.vector_from_tree(direction_b_);
         }
+        between_nodes(t_.frame.a_from_b, p, q, nodes.p_from_q);
         if (a.is_leaf() && b.is_leaf())
             return visit(nodes, a, b);
-        ChildPairs children(nodes, p, q);
-        if (test == BoxTest::nearest)
-            children.take_direction(nodes);
-        Side of_p{index_p, p, children.p, children.p.used},
-            of_q{index_q, q, children.q, children.q.used};
-        if (!open_a) {
-            of_p.lanes = 1U << lane_of(pair.a);
-        } else if (!open_b) {
-            of_q.lanes = 1U << lane_of(pair.b);
-        } else if (test != BoxTest::middles) {
-            of_p.lanes = near_node<test>(children.p, children.q, q.bounds, bound_sq_);
-            of_q.lanes = near_node<test>(children.q, children.p, p.bounds, bound_sq_);
-            t_.volume_tests += 2 * Node::kWidth;
+        // Many pairs of nodes end here: no child of one is near the other. The second is turned
+        // only if a child of the first is left.
+        Siblings children_p, children_q;
+        see_children(q, nodes.p_from_q, children_q);
+        Side of_p{index_p, p, children_p, 0},
+            of_q{index_q, q, children_q, children_q.used & opened_lanes(open_b, pair.b)};
+        const bool both = open_a && open_b && test != BoxTest::middles;
+        float advance_p = 0, advance_q = 0;
+        if (test == BoxTest::nearest) {
+            sum_along(children_q.seen.centre, nodes.n_p, children_q.own.half, nodes.n_q, -1, 0,
+                      children_q.advance);
+            advance_p = advance_of(p.bounds, nodes.n_p, nodes.p_from_q.margin);
+        }
+        if (both) {
+            of_q.lanes &=
+                near_box<test>(children_q, nodes.p_from_q, p.bounds, bound_sq_, advance_p);
+            t_.volume_tests += Node::kWidth;
+            if (of_q.lanes == 0)
+                return true;
+        }
+        between_nodes(t_.frame.b_from_a, q, p, nodes.q_from_p);
+        see_children(p, nodes.q_from_p, children_p);
+        take_margins(nodes.p_from_q, children_p);
+        take_margins(nodes.q_from_p, children_q);
+        of_p.lanes = children_p.used & opened_lanes(open_a, pair.a);
+        if (test == BoxTest::nearest) {
+            sum_along(children_p.own.centre, nodes.n_p, children_p.own.half, nodes.n_p, 1,
+                      length_1(nodes.n_p) * nodes.p_from_q.margin, children_p.advance);
+            advance_q = most_of(children_q.advance, of_q.lanes);
+        }
+        if (both) {
+            of_p.lanes &=
+                near_box<test>(children_p, nodes.q_from_p, q.bounds, bound_sq_, advance_q);
+            t_.volume_tests += Node::kWidth;
+            if (of_p.lanes == 0)
+                return true;
         }
         // The side with fewer children is taken one by one, each against all of the other side.
         return std::popcount(of_p.lanes) <= std::popcount(of_q.lanes)
@@ -168,6 +197,10 @@ private:
                    : compare<true>(nodes, of_q, of_p);
     }
 
+    /// The lanes of a node that count: all, or the one of the box that is not opened.
+    static std::uint32_t opened_lanes(bool open, std::uint32_t name) {
+        return open ? 0xffU : 1U << lane_of(name);
+    }
     /// If two nodes differ much in size, opens only the larger one.
     void open_larger(const BoxPair& pair, bool& open_a, bool& open_b) const {
         const float area_a = t_.a.nodes[t_.a.named(pair.a).index()].bounds.half_area() *
@@ -195,8 +228,14 @@ private:
         if (!measure(x, y, pairs))
             return false;
         if (test != BoxTest::middles && (test != BoxTest::nearest || has_direction_)) {
-            if (!visit_leaves<y_is_a>(nodes, x, y, pairs))
-                return false;
+            if (pairs.leaves != 0) {
+                const bool go_on = test == BoxTest::overlap || settled_ >= traverse_pair::kSettled
+                                       ? visit_leaves<y_is_a>(nodes, x, y, pairs)
+                                       : visit_each_leaf<y_is_a>(nodes, x, y, pairs);
+                if (!go_on)
+                    return false;
+                ++settled_;
+            }
             pairs.near &= ~pairs.leaves;
         }
         add<y_is_a>(x, y, pairs);
@@ -221,8 +260,11 @@ private:
         return true;
     }
 
+    /// Compares the pairs of leaves one after the other, each with the bound that the one before has
+    /// left.
     template <bool y_is_a>
-    bool visit_leaves(const NodePair& nodes, const Side& x, const Side& y, const PairSet& pairs) {
+    bool visit_each_leaf(const NodePair& nodes, const Side& x, const Side& y,
+                         const PairSet& pairs) {
         for (const std::uint32_t bit : SetBits(pairs.leaves)) {
             const std::uint32_t i = bit / Node::kWidth, j = bit % Node::kWidth;
             if (pairs.value[i][j] > bound_sq_) // the bound may have shrunk since
@@ -232,6 +274,65 @@ private:
                 return false;
         }
         return true;
+    }
+
+    /// Compares the triangles of all pairs of leaves, and hands those that may matter to the
+    /// visitor. Lanes are filled with the triangle pairs of several pairs of leaves.
+    template <bool y_is_a>
+    bool visit_leaves(const NodePair& nodes, const Side& x, const Side& y, const PairSet& pairs) {
+        constexpr bool kWithNear = test != BoxTest::overlap;
+        LeafGroup<kWithNear> group(nodes.p_from_q, leaf_bound(nodes, bound_sq_));
+        std::uint32_t of_x = 0, of_y = 0;
+        for (std::uint32_t i = 0; i < Node::kWidth; ++i) {
+            const auto row = static_cast<std::uint32_t>(pairs.leaves >> (Node::kWidth * i) & 0xffU);
+            of_x |= (row != 0 ? 1U : 0U) << i;
+            of_y |= row;
+        }
+        const auto set = [&](const Side& side, std::uint32_t lanes, bool is_a) {
+            for (const std::uint32_t i : SetBits(lanes))
+                if (is_a)
+                    group.set_a(i, t_.a.leaf(side.node.child[i]));
+                else
+                    group.set_b(i, t_.b.leaf(side.node.child[i]));
+        };
+        prefetch_leaves(y_is_a ? t_.b : t_.a, x.node, of_x);
+        prefetch_leaves(y_is_a ? t_.a : t_.b, y.node, of_y);
+        set(x, of_x, !y_is_a);
+        set(y, of_y, y_is_a);
+        std::uint64_t handed = pairs.leaves; // those still to be handed on
+        std::size_t k = 0;
+        const auto hand_on_complete = [&] {
+            for (; k < group.complete(); ++k, handed &= handed - 1) {
+                const LeafPairs found = group.pairs(k);
+                if (found.any() == 0)
+                    continue;
+                const auto bit = static_cast<std::uint32_t>(std::countr_zero(handed));
+                const std::uint32_t i = bit / Node::kWidth, j = bit % Node::kWidth;
+                if (pairs.value[i][j] > bound_sq_) // the bound may have shrunk since
+                    continue;
+                const NodeRef leaf_x = x.node.child[i], leaf_y = y.node.child[j];
+                if (!(y_is_a ? hand_on(leaf_y, leaf_x, found) : hand_on(leaf_x, leaf_y, found)))
+                    return false;
+            }
+            return true;
+        };
+        for (const std::uint32_t bit : SetBits(pairs.leaves)) {
+            const std::uint32_t i = bit / Node::kWidth, j = bit % Node::kWidth;
+            const std::uint32_t count_x = x.node.child[i].count(),
+                                count_y = y.node.child[j].count();
+            t_.primitive_tests += std::uint64_t{count_x} * count_y;
+            if (y_is_a)
+                group.add(j, i, used_pairs(count_y, count_x));
+            else
+                group.add(i, j, used_pairs(count_x, count_y));
+            if (group.fills_lanes()) {
+                group.decide(false);
+                if (!hand_on_complete())
+                    return false;
+            }
+        }
+        group.decide(true);
+        return hand_on_complete();
     }
 
     template <bool y_is_a>
@@ -256,31 +357,26 @@ private:
             std::swap(*deepest, found_.back());
     }
 
-    /// Prefetches a node, which will be needed soon, but not next.
-    static void prefetch(NodeRef ref, const Tree& tree) {
-        constexpr std::size_t kLine = 64;
-        if (ref.is_leaf())
-            return;
-        const auto* node = reinterpret_cast<const unsigned char*>(&tree.nodes[ref.index()]);
-        for (std::size_t i = 0; i < sizeof(Node); i += kLine)
-            hwy::Prefetch(node + i);
-    }
-
     bool visit(const NodePair& nodes, NodeRef a, NodeRef b) {
         t_.primitive_tests += std::uint64_t{a.count()} * b.count();
         const LeafPairs pairs =
             compare_leaves(t_.a, a, t_.b, b, nodes, test == BoxTest::overlap, bound_sq_);
-        if (pairs.any() == 0)
-            return true;
+        return pairs.any() == 0 || hand_on(a, b, pairs);
+    }
+
+    bool hand_on(NodeRef a, NodeRef b, const LeafPairs& pairs) {
         const double new_bound_sq = visitor_.visit(a, b, pairs);
         if (!(new_bound_sq >= 0)) {
             verdict_ = Verdict::stopped;
             return false;
         }
-        if constexpr (test == BoxTest::nearest)
-            if (round_up(new_bound_sq) < bound_sq_)
+        const float bound_sq = round_up(new_bound_sq);
+        if (bound_sq < bound_sq_) {
+            settled_ = 0;
+            if constexpr (test == BoxTest::nearest)
                 take_direction();
-        bound_sq_ = round_up(new_bound_sq);
+        }
+        bound_sq_ = bound_sq;
         return true;
     }
 
@@ -310,6 +406,7 @@ private:
     BoxPairs found_;
     Covector direction_a_{}, direction_b_{};
     bool has_direction_ = false;
+    std::uint32_t settled_ = 0; ///< groups of leaves compared since the bound shrank
 };
 
 Verdict contacts(PairTraversal& t, LeafPairVisitor& visitor) {

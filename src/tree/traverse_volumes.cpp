@@ -8,6 +8,7 @@
 #include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #undef HWY_TARGET_INCLUDE
@@ -32,17 +33,81 @@ struct VolumePair {
 };
 using VolumePairs = boost::container::small_vector<VolumePair, 512>;
 
-/// One side of the pair, with the map that brings the other side's volumes into its frame.
+/// The volumes of a tree, all of one kind.
 template <typename V>
+class PureLayer {
+public:
+    using Volume = V;
+
+    explicit PureLayer(const VolumeTree& tree) : layer_(std::get<VolumeLayer<V>>(tree.layer())) {}
+
+    [[nodiscard]] const V& root() const { return layer_.root; }
+    [[nodiscard]] const VolumeBatch<V>& children(std::uint32_t node) const {
+        return layer_.children[node];
+    }
+    [[nodiscard]] V child(std::uint32_t node, std::uint32_t lane) const {
+        return children(node).get(lane);
+    }
+
+private:
+    const VolumeLayer<V>& layer_;
+};
+
+/// The swept spheres of a tree, of any kind. Each is handed out as an Ssv.
+class SweptLayer {
+public:
+    using Volume = Ssv;
+
+    explicit SweptLayer(const VolumeTree& tree) {
+        std::visit([this](const auto& layer) { take(layer); }, tree.layer());
+    }
+
+    [[nodiscard]] const Ssv& root() const { return root_; }
+    [[nodiscard]] SweptBatch children(std::uint32_t node) const {
+        return {batches_ + std::size_t{node} * rows_, (rows_ - 4) / 4};
+    }
+    [[nodiscard]] Ssv child(std::uint32_t node, std::uint32_t lane) const {
+        const auto* row = batches_ + std::size_t{node} * rows_;
+        const auto vector = [&](std::size_t first) {
+            return std::array{row[first][lane], row[first + 1][lane], row[first + 2][lane]};
+        };
+        Ssv swept;
+        swept.centre = vector(0);
+        swept.radius = row[3][lane];
+        for (std::size_t i = 0; 4 + 4 * i < rows_; ++i)
+            swept.axes[i] = {vector(4 + 4 * i), row[4 + 4 * i + 3][lane]};
+        return swept;
+    }
+
+private:
+    template <typename V>
+    void take(const VolumeLayer<V>& layer) {
+        if constexpr (std::is_constructible_v<Ssv, V>) {
+            static_assert(sizeof(layer.children[0]) == sizeof(layer.children[0].row));
+            root_ = Ssv(layer.root);
+            batches_ = layer.children.empty() ? nullptr : layer.children[0].row;
+            rows_ = V::kFloats;
+        }
+    }
+
+    const float (*batches_)[VolumeBounds::kLanes] = nullptr;
+    std::size_t rows_ = 4; ///< of a batch
+    Ssv root_;
+};
+
+/// One side of the pair, with the map that brings the other side's volumes into its frame.
+template <class Layer>
 struct Side {
+    using Volume = typename Layer::Volume;
+
     const Tree& tree;
-    const VolumeLayer<V>& layer;
-    typename V::Map from_other;
+    Layer layer;
+    typename Volume::Map from_other;
     float stretch_sq, most_stretch_sq; ///< from squared distances in its frame to those in the
                                        ///< world
 
-    [[nodiscard]] V volume(std::uint32_t name) const {
-        return name == kRootName ? layer.root : layer.children[node_of(name)].get(lane_of(name));
+    [[nodiscard]] Volume volume(std::uint32_t name) const {
+        return name == kRootName ? layer.root() : layer.child(node_of(name), lane_of(name));
     }
 };
 
@@ -60,21 +125,24 @@ inline std::uint32_t children_of(const Node& node) {
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE::volumes {
 
+using traverse_volumes::PureLayer;
 using traverse_volumes::Side;
+using traverse_volumes::SweptLayer;
 using traverse_volumes::VolumePair;
 using traverse_volumes::VolumePairs;
 
-/// A traversal of two trees with volumes of one kind.
-template <typename V>
+/// A traversal of two trees with volumes that can be compared.
+template <class Layer>
 class Traversal {
+    using V = typename Layer::Volume;
+
 public:
     Traversal(const VolumeTraversal& t, LeafPairVisitor& visitor)
         : pair_(t.pair),
-          visitor_(visitor), a_{t.pair.a, std::get<VolumeLayer<V>>(t.volumes_a.layer()),
-                                typename V::Map(t.frame.a_from_b), t.frame.stretch_a_sq,
-                                t.frame.most_stretch_a_sq},
-          b_{t.pair.b, std::get<VolumeLayer<V>>(t.volumes_b.layer()),
-             typename V::Map(t.frame.b_from_a), t.frame.stretch_b_sq, t.frame.most_stretch_b_sq},
+          visitor_(visitor), a_{t.pair.a, Layer(t.volumes_a), typename V::Map(t.frame.a_from_b),
+                                t.frame.stretch_a_sq, t.frame.most_stretch_a_sq},
+          b_{t.pair.b, Layer(t.volumes_b), typename V::Map(t.frame.b_from_a), t.frame.stretch_b_sq,
+             t.frame.most_stretch_b_sq},
           bound_sq_(round_up(t.pair.bound_sq)) {}
 
     template <bool with_upper>
@@ -98,7 +166,7 @@ public:
     Verdict best_first() {
         // The circumscribed balls of the roots bound the distance of any two points.
         VolumeBounds bounds{};
-        bound_all<true>(D(), root_batch(), image_of(b_.layer.root, a_.from_other), bounds);
+        bound_all<true>(D(), root_batch(), image_of(b_.layer.root(), a_.from_other), bounds);
         NearFirstQueue<VolumePair> pending(
             std::min(bound_sq_, bounds.upper_sq[0] * a_.most_stretch_sq));
         pending.push(0, {kRootName, kRootName, 0});
@@ -126,7 +194,7 @@ private:
 
     [[nodiscard]] VolumeBatch<V> root_batch() const {
         VolumeBatch<V> batch;
-        batch.set(0, a_.layer.root);
+        batch.set(0, a_.layer.root());
         return batch;
     }
 
@@ -139,7 +207,7 @@ private:
             return visit(ref_a, leaf_node(a_, pair.a), ref_b, leaf_node(b_, pair.b));
         }
         const V volume_a = a_.volume(pair.a), volume_b = b_.volume(pair.b);
-        const auto size = [](const V& volume, const Side<V>& side) {
+        const auto size = [](const V& volume, const Side<Layer>& side) {
             const float r = volume.circumradius();
             return r * r * side.most_stretch_sq;
         };
@@ -157,7 +225,7 @@ private:
     }
 
     /// The node that a leaf is a child of.
-    static const Node& leaf_node(const Side<V>& side, std::uint32_t name) {
+    static const Node& leaf_node(const Side<Layer>& side, std::uint32_t name) {
         return side.tree.nodes[node_of(name)];
     }
     Verdict visit(NodeRef a, const Node& p, NodeRef b, const Node& q) {
@@ -175,9 +243,10 @@ private:
     /// Compares one volume of the other tree with the children of a node, and adds the children
     /// that may be within the bound. Returns true if one lies wholly within the bound.
     template <bool with_upper, typename Add>
-    HWY_INLINE bool open(const Side<V>& side, std::uint32_t index, const V& other, const Add& add) {
+    HWY_INLINE bool open(const Side<Layer>& side, std::uint32_t index, const V& other,
+                         const Add& add) {
         VolumeBounds bounds{};
-        bound_all<with_upper>(D(), side.layer.children[index], image_of(other, side.from_other),
+        bound_all<with_upper>(D(), side.layer.children(index), image_of(other, side.from_other),
                               bounds);
         const std::uint32_t used = traverse_volumes::children_of(side.tree.nodes[index]);
         pair_.volume_tests += static_cast<std::uint64_t>(std::popcount(used));
@@ -206,15 +275,25 @@ private:
 
     PairTraversal& pair_;
     LeafPairVisitor& visitor_;
-    Side<V> a_, b_;
+    Side<Layer> a_, b_;
     float bound_sq_;
     bool contacts_only_ = false;
 };
 
-template <typename V>
-Traversal<V> traversal_of(const VolumeLayer<V>&, const VolumeTraversal& t,
-                          LeafPairVisitor& visitor) {
-    return Traversal<V>(t, visitor);
+/// Calls run(traversal) with the traversal that compares the kinds of both trees.
+template <class Run>
+Verdict with_traversal(const VolumeTraversal& t, LeafPairVisitor& visitor, const Run& run) {
+    const auto mixed = [&]() HWY_ATTR { return run(Traversal<SweptLayer>(t, visitor)); };
+    if (t.volumes_a.kind() != t.volumes_b.kind())
+        return mixed();
+    return std::visit(
+        [&]<typename V>(const VolumeLayer<V>&) HWY_ATTR {
+            if constexpr (std::is_same_v<V, Ssv>)
+                return mixed();
+            else
+                return run(Traversal<PureLayer<V>>(t, visitor));
+        },
+        t.volumes_a.layer());
 }
 
 } // namespace abut::HWY_NAMESPACE::volumes
@@ -222,24 +301,18 @@ Traversal<V> traversal_of(const VolumeLayer<V>&, const VolumeTraversal& t,
 namespace abut::HWY_NAMESPACE {
 
 Verdict volume_contacts(const VolumeTraversal& t, LeafPairVisitor& visitor) {
-    return std::visit(
-        [&](const auto& layer) HWY_ATTR {
-            return volumes::traversal_of(layer, t, visitor).template depth_first<false>();
-        },
-        t.volumes_a.layer());
+    return volumes::with_traversal(t, visitor, [](auto&& traversal) HWY_ATTR {
+        return traversal.template depth_first<false>();
+    });
 }
 Verdict volumes_within(const VolumeTraversal& t, LeafPairVisitor& visitor) {
-    return std::visit(
-        [&](const auto& layer) HWY_ATTR {
-            return volumes::traversal_of(layer, t, visitor).template depth_first<true>();
-        },
-        t.volumes_a.layer());
+    return volumes::with_traversal(t, visitor, [](auto&& traversal) HWY_ATTR {
+        return traversal.template depth_first<true>();
+    });
 }
 Verdict nearest_volumes(const VolumeTraversal& t, LeafPairVisitor& visitor) {
-    return std::visit(
-        [&](const auto& layer)
-            HWY_ATTR { return volumes::traversal_of(layer, t, visitor).best_first(); },
-        t.volumes_a.layer());
+    return volumes::with_traversal(
+        t, visitor, [](auto&& traversal) HWY_ATTR { return traversal.best_first(); });
 }
 
 } // namespace abut::HWY_NAMESPACE
@@ -251,6 +324,16 @@ namespace abut {
 HWY_EXPORT(volume_contacts);
 HWY_EXPORT(volumes_within);
 HWY_EXPORT(nearest_volumes);
+
+namespace {
+
+/// Returns whether a traversal compares the volumes of these kinds.
+bool can_compare(Volume a, Volume b) {
+    const Volume common = common_volume(a, b);
+    return common != Volume::automatic && common != Volume::aabb;
+}
+
+} // namespace
 
 VolumeFrame make_volume_frame(const VolumeTree& a, const Transform& world_from_a,
                               const VolumeTree& b, const Transform& world_from_b) {
@@ -271,7 +354,7 @@ VolumeFrame make_volume_frame(const VolumeTree& a, const Transform& world_from_a
     frame.stretch_b_sq = round_down(least_b * least_b * (1 - 8 * 0x1p-24));
     frame.most_stretch_a_sq = round_up(most_a * most_a * (1 + 8 * 0x1p-24));
     frame.most_stretch_b_sq = round_up(most_b * most_b * (1 + 8 * 0x1p-24));
-    frame.valid = a.kind() == b.kind() && frame.a_from_b.valid && frame.b_from_a.valid &&
+    frame.valid = can_compare(a.kind(), b.kind()) && frame.a_from_b.valid && frame.b_from_a.valid &&
                   std::isfinite(frame.most_stretch_a_sq) &&
                   std::isfinite(frame.most_stretch_b_sq) && frame.stretch_a_sq > 0x1p-100F &&
                   frame.stretch_b_sq > 0x1p-100F;

@@ -16,9 +16,9 @@ struct VolumeFrame {
     /// in the tree's frame.
     float stretch_a_sq = 0, stretch_b_sq = 0;
     float most_stretch_a_sq = 0, most_stretch_b_sq = 0;
-    bool valid = false; ///< false: kinds differ, a transform is singular, or sizes are such that
-                        ///< single precision cannot square them; the trees' boxes are then used
-                        ///< instead
+    /// False if the kinds cannot be compared, a transform is singular, or single precision cannot
+    /// square the sizes. The trees' boxes are then used instead.
+    bool valid = false;
 };
 
 /// Computes the frames of a pair of volume trees.

@@ -84,6 +84,16 @@ std::size_t VolumeTree::bytes() const {
     return std::visit([](const auto& layer) { return layer.bytes(); }, layer_);
 }
 
+Volume common_volume(Volume a, Volume b) {
+    const auto is_swept = [](Volume kind) {
+        return kind == Volume::sphere || kind == Volume::pss || kind == Volume::lss ||
+               kind == Volume::rss || kind == Volume::ssv;
+    };
+    if (a == b)
+        return a;
+    return is_swept(a) && is_swept(b) ? Volume::ssv : Volume::automatic;
+}
+
 std::unique_ptr<const VolumeTree> build_volume_tree(Volume kind, const Tree& tree,
                                                     const TreeMesh& mesh) {
     if (tree.empty() || kind == Volume::automatic || kind == Volume::aabb)
@@ -112,6 +122,8 @@ std::unique_ptr<const VolumeTree> build_volume_tree(Volume kind, const Tree& tre
         return build<Lss>(kind, tree, triangles);
     case Volume::rss:
         return build<Rss>(kind, tree, triangles);
+    case Volume::ssv:
+        return build<Ssv>(kind, tree, triangles);
     }
     return nullptr;
 }

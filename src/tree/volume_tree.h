@@ -6,6 +6,7 @@
 #include "volume/kdop.h"
 #include "volume/obb.h"
 #include "volume/sphere.h"
+#include "volume/ssv.h"
 
 #include <memory>
 #include <variant>
@@ -16,8 +17,8 @@ namespace abut {
 class VolumeTree {
 public:
     using Layer = std::variant<VolumeLayer<BoundingSphere>, VolumeLayer<Pss>, VolumeLayer<Lss>,
-                               VolumeLayer<Rss>, VolumeLayer<Obb>, VolumeLayer<Kdop14>,
-                               VolumeLayer<Kdop18>, VolumeLayer<Kdop26>>;
+                               VolumeLayer<Rss>, VolumeLayer<Ssv>, VolumeLayer<Obb>,
+                               VolumeLayer<Kdop14>, VolumeLayer<Kdop18>, VolumeLayer<Kdop26>>;
 
     VolumeTree(Volume kind, Layer layer) : kind_(kind), layer_(std::move(layer)) {}
 

@@ -38,12 +38,18 @@ HWY_INLINE hn::Vec<D> spread_b(D d, const float (&v)[TriangleLeaf::kLanes], std:
 
 /// Transforms b's triangles to a's frame.
 HWY_INLINE void turn_leaf(const TriangleLeaf& b, const LeafPlacement& to_a, TriangleLeaf& turned) {
-    for (std::size_t v = 0; v < 3; ++v)
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto& m = to_a.linear;
-            for (std::size_t j = 0; j < TriangleLeaf::kLanes; ++j)
-                turned.v[v][axis][j] = m[0][axis] * b.v[v][0][j] + m[1][axis] * b.v[v][1][j] +
-                                       m[2][axis] * b.v[v][2][j] + to_a.translation[axis];
+    const hn::CappedTag<float, TriangleLeaf::kLanes> d;
+    const auto& m = to_a.linear;
+    for (std::size_t lane = 0; lane < TriangleLeaf::kLanes; lane += hn::Lanes(d))
+        for (std::size_t v = 0; v < 3; ++v) {
+            const auto p = load3(d, b.v[v], lane);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                auto sum =
+                    hn::MulAdd(hn::Set(d, m[0][axis]), p.x, hn::Set(d, to_a.translation[axis]));
+                sum = hn::MulAdd(hn::Set(d, m[1][axis]), p.y, sum);
+                sum = hn::MulAdd(hn::Set(d, m[2][axis]), p.z, sum);
+                hn::Store(sum, d, turned.v[v][axis] + lane);
+            }
         }
 }
 

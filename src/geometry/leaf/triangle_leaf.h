@@ -13,11 +13,13 @@ struct alignas(16) TriangleLeaf {
     float v[3][3][kLanes]; ///< [vertex][axis][lane]
 };
 
-/// The transform from leaf b's frame to leaf a's.
+/// The transform from leaf b's frame to leaf a's. It has to be filled in: clearing it first would cost
+/// as much as filling it.
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
 struct LeafPlacement {
     /// Transforms b's points to a's frame: [column][row], padded to four.
-    alignas(16) std::array<std::array<float, 4>, 3> linear{};
-    std::array<float, 4> translation{};
+    alignas(16) std::array<std::array<float, 4>, 3> linear;
+    std::array<float, 4> translation;
     float margin = 0; ///< error bound of the difference of two coordinates, on each axis
 };
 

@@ -17,10 +17,10 @@
 namespace abut::test {
 namespace {
 
-struct Tally {
+struct ThicknessTally {
     int cases = 0, hits = 0, late = 0, culled = 0, found = 0, bound_only = 0;
 
-    ~Tally() {
+    ~ThicknessTally() {
         std::cout << cases << " cases, " << hits << " hits, " << late << " after the start, "
                   << bound_only << " bounds only, " << culled << " decided by the filter, " << found
                   << " found by the oracle\n";
@@ -85,7 +85,7 @@ ElementaryPair thin_pair(Random& random) {
     return pair;
 }
 
-ElementaryPair any_pair(Random& random) {
+ElementaryPair any_near_pair(Random& random) {
     switch (random.integer(0, 7)) {
     case 7:
         return thin_pair(random);
@@ -117,13 +117,13 @@ ElementaryPair moved_off(Random& random, ElementaryPair pair, double length) {
 
 TEST(ElementaryThickness, ImpactsAreAsNearAsPromised) {
     Random random(801);
-    Tally tally;
+    ThicknessTally tally;
     for (int i = 0; i < many(8000) && !HasFatalFailure(); ++i) {
         ElementaryOptions options;
         options.thickness = std::pow(10, random.uniform(-9, 0));
         options.absolute_error =
             i % 4 == 0 ? options.thickness * std::pow(10, random.uniform(-7, 1)) : 0;
-        const ElementaryPair pair = moved_off(random, any_pair(random), options.thickness);
+        const ElementaryPair pair = moved_off(random, any_near_pair(random), options.thickness);
         const ElementaryImpact impact = elementary_impact(pair, options);
         tally.add(impact);
         expect_as_promised(random, pair, impact, options);
@@ -137,12 +137,12 @@ TEST(ElementaryThickness, ImpactsAreAsNearAsPromised) {
 
 TEST(ElementaryThickness, NoContactIsMissed) {
     Random random(802);
-    Tally tally;
+    ThicknessTally tally;
     for (int i = 0; i < many(3000) && !HasFatalFailure(); ++i) {
         const bool lattice = i % 2 == 0;
         const double d = lattice ? random.integer(1, 8) / 8.0 : std::pow(10, random.uniform(-4, 0));
         const ElementaryPair pair =
-            lattice ? lattice_pair(random, 4) : moved_off(random, any_pair(random), d);
+            lattice ? lattice_pair(random, 4) : moved_off(random, any_near_pair(random), d);
         const ElementaryImpact impact = elementary_impact(pair, {.thickness = d});
         tally.add(impact);
         const auto time = ThicknessOracle(pair).early_time(d);
@@ -196,7 +196,7 @@ struct Grazing {
 
 TEST(ElementaryThickness, GrazingAtExactlyTheThickness) {
     Random random(803);
-    Tally tally;
+    ThicknessTally tally;
     int early = 0;
     for (int i = 0; i < many(4000) && !HasFatalFailure(); ++i) {
         const Grazing grazing(random);
@@ -220,11 +220,11 @@ TEST(ElementaryThickness, GrazingAtExactlyTheThickness) {
 
 TEST(ElementaryThickness, TheSamePairWrittenDifferently) {
     Random random(804);
-    Tally tally;
+    ThicknessTally tally;
     int different = 0;
     for (int i = 0; i < many(30000) && !HasFatalFailure(); ++i) {
         const double d = std::pow(10, random.uniform(-5, 0));
-        const ElementaryPair pair = moved_off(random, any_pair(random), d);
+        const ElementaryPair pair = moved_off(random, any_near_pair(random), d);
         const ElementaryPair same = rewritten(random, pair);
         const double scale = size_between(pair) > 0 ? size_between(same) / size_between(pair) : 1;
         const ElementaryImpact one = elementary_impact(pair, {.thickness = d}),
@@ -248,7 +248,7 @@ TEST(ElementaryThickness, TheSamePairWrittenDifferently) {
 
 TEST(ElementaryThickness, AnySizeOfCoordinates) {
     Random random(805);
-    Tally tally;
+    ThicknessTally tally;
     for (int i = 0; i < many(2000) && !HasFatalFailure(); ++i) {
         const int exponent =
             random.chance(0.3) ? (random.chance(0.5) ? 1021 : -1050) : random.integer(-1000, 1000);
@@ -284,11 +284,11 @@ TEST(ElementaryThickness, AnySizeOfCoordinates) {
 
 TEST(ElementaryThickness, PointsAndNormals) {
     Random random(806);
-    Tally tally;
+    ThicknessTally tally;
     int without = 0;
     for (int i = 0; i < many(20000) && !HasFatalFailure(); ++i) {
         const double d = std::pow(10, random.uniform(-4, 0));
-        const ElementaryPair pair = moved_off(random, any_pair(random), d);
+        const ElementaryPair pair = moved_off(random, any_near_pair(random), d);
         const ElementaryImpact impact = elementary_impact(pair, {.thickness = d});
         tally.add(impact);
         if (!impact.meet)
@@ -322,7 +322,7 @@ TEST(ElementaryThickness, TheFilterOnEverySimdTarget) {
             std::array<ElementaryPair, ElementaryBatch::kLanes> pairs;
             for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
                 ElementaryPair& pair = pairs.at(lane);
-                pair = moved_off(random, any_pair(random), 2 * d);
+                pair = moved_off(random, any_near_pair(random), 2 * d);
                 pair.kind = kind;
                 batch.set(lane, pair);
             }
@@ -355,7 +355,7 @@ TEST(ElementaryThickness, TheFilterOnEverySimdTarget) {
 TEST(ElementaryThickness, BatchesEqualSingleTests) {
     Random random(808);
     std::vector<ElementaryPair> pairs(3001);
-    std::generate(pairs.begin(), pairs.end(), [&] { return any_pair(random); });
+    std::generate(pairs.begin(), pairs.end(), [&] { return any_near_pair(random); });
     const ElementaryOptions options{.thickness = 0.01};
     const auto impacts = elementary_impacts(pairs, options);
     int hits = 0;
@@ -377,7 +377,7 @@ TEST(FeatureDistance, BoundsHoldAndAreTight) {
     int cases = 0, apart = 0;
     double widest = 0;
     for (int i = 0; i < many(20000) && !HasFatalFailure(); ++i) {
-        ElementaryPair pair = any_pair(random);
+        ElementaryPair pair = any_near_pair(random);
         if (i % 3 == 0)
             pair = mutated(random, pair);
         pair.end = pair.start;
@@ -408,7 +408,7 @@ TEST(FeatureDistance, AreWithinIsExact) {
     Random random(810);
     int within = 0, beyond = 0, open = 0;
     for (int i = 0; i < many(8000) && !HasFatalFailure(); ++i) {
-        ElementaryPair pair = i % 4 == 0 ? lattice_pair(random, 4) : any_pair(random);
+        ElementaryPair pair = i % 4 == 0 ? lattice_pair(random, 4) : any_near_pair(random);
         if (i % 3 == 0)
             pair = mutated(random, pair);
         if (i % 5 == 0) { // squares underflow at these sizes

@@ -29,12 +29,13 @@ MovingMesh any_soup(Random& random) {
 std::vector<DeformableOptions> all_options() {
     std::vector<DeformableOptions> all;
     for (const auto scheme : {Scheme::representative, Scheme::database, Scheme::markup,
-                              Scheme::basic, Scheme::features})
+                              Scheme::basic, Scheme::features, Scheme::pairwise})
         for (const auto culling : {Culling::tree, Culling::grid, Culling::sweep})
             all.push_back({scheme, Assignment::greedy, culling});
     for (const auto assignment : {Assignment::maximal, Assignment::uniform_vertex_edge,
                                   Assignment::uniform_edge_edge, Assignment::adaptive})
         all.push_back({Scheme::representative, assignment, Culling::tree});
+    all.push_back({.lean = true});
     return all;
 }
 
@@ -146,12 +147,15 @@ TEST(Deformable, SpawnsNoPairTwice) {
                                  features = counters({.scheme = Scheme::features}),
                                  markup = counters({.scheme = Scheme::markup}),
                                  grid = counters({.culling = Culling::grid}),
+                                 pairwise = counters({.scheme = Scheme::pairwise}),
                                  representative = counters({}),
                                  basic = counters({.scheme = Scheme::basic});
         EXPECT_EQ(features.elementary_tests, database.elementary_tests);
         EXPECT_EQ(markup.elementary_tests, database.elementary_tests);
         EXPECT_EQ(grid.elementary_tests, database.elementary_tests);
         EXPECT_EQ(grid.candidates, database.candidates);
+        EXPECT_EQ(pairwise.candidates, database.candidates);
+        EXPECT_EQ(pairwise.triangle_pairs, basic.triangle_pairs);
         EXPECT_LE(representative.elementary_tests.edge_edge, database.elementary_tests.edge_edge);
         EXPECT_GT(basic.elementary_tests.edge_edge, database.elementary_tests.edge_edge);
         EXPECT_GT(markup.candidates.edge_edge, database.candidates.edge_edge);

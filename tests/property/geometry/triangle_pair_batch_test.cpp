@@ -14,7 +14,7 @@
 namespace abut::test {
 namespace {
 
-Triangle any_triangle(Random& random, int kind) {
+Triangle batch_triangle(Random& random, int kind) {
     switch (kind % 4) {
     case 0:
         return random.lattice_triangle(3);
@@ -52,10 +52,10 @@ TEST(TrianglePairBatch, DistanceEqualsTheReferenceAndTheScalarFunction) {
         double worst = 0;
         int apart = 0;
         for (int i = 0; i < 20000; ++i) {
-            const Triangle a = any_triangle(random, i);
+            const Triangle a = batch_triangle(random, i);
             TrianglePairBatch batch{};
             for (std::size_t lane = 0; lane < TrianglePairBatch::kLanes; ++lane)
-                batch.set(lane, a, any_triangle(random, i));
+                batch.set(lane, a, batch_triangle(random, i));
             double simd[TrianglePairBatch::kLanes], one[TrianglePairBatch::kLanes];
             distance_sq(batch, simd);
             distance_sq_reference(batch, one);
@@ -84,10 +84,10 @@ TEST(TrianglePairBatch, DistanceAgainstAHundredDigits) {
         Random random(504);
         double worst = 0, most = 0;
         for (int i = 0; i < many(200); ++i) {
-            const Triangle a = any_triangle(random, i);
+            const Triangle a = batch_triangle(random, i);
             TrianglePairBatch batch{};
             for (std::size_t lane = 0; lane < TrianglePairBatch::kLanes; ++lane) {
-                Triangle b = any_triangle(random, i);
+                Triangle b = batch_triangle(random, i);
                 if (i % 2 == 1) { // a vertex just off the face, which may be a needle
                     const double s = random.uniform(0, 1), t = random.uniform(0, 1 - s);
                     b[random.bits() % 3] = a[0] + s * (a[1] - a[0]) + t * (a[2] - a[0]) +

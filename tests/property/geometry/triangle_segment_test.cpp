@@ -24,12 +24,12 @@ double distance_to_edges(const Vec3& p, const Triangle& t) {
     return std::sqrt(best);
 }
 
-struct Tally {
+struct SegmentTally {
     std::array<int, 7> of{}; ///< by number of corners
     double worst = 0;        ///< distance of a corner to a triangle, relative to the pair's size
 };
 
-void check(const Triangle& a, const Triangle& b, Tally& tally) {
+void check(const Triangle& a, const Triangle& b, SegmentTally& tally) {
     const Intersection ab = triangle_triangle_segment(a, b), ba = triangle_triangle_segment(b, a);
     const bool meet = triangle_triangle_intersect(a, b) != TriangleContact::none;
     ASSERT_EQ(ab.count > 0, meet);
@@ -60,7 +60,7 @@ void check(const Triangle& a, const Triangle& b, Tally& tally) {
 
 TEST(TriangleSegment, RandomPairs) {
     Random random(3101);
-    Tally tally;
+    SegmentTally tally;
     for (int i = 0; i < 60000 && !HasFatalFailure(); ++i) {
         const double scale = std::exp2(random.integer(-60, 60));
         Triangle a = random.triangle(), b = random.triangle();
@@ -77,7 +77,7 @@ TEST(TriangleSegment, RandomPairs) {
 /// Nearly coincident planes, and needles.
 TEST(TriangleSegment, NearlyCoplanarAndThin) {
     Random random(3102);
-    Tally tally;
+    SegmentTally tally;
     for (int i = 0; i < 40000 && !HasFatalFailure(); ++i) {
         const double tilt = std::exp2(random.integer(-60, -2));
         Triangle a = random.triangle(), b = random.triangle();
@@ -95,7 +95,7 @@ TEST(TriangleSegment, NearlyCoplanarAndThin) {
 
 TEST(TriangleSegment, LatticePairsOfEveryKind) {
     Random random(3103);
-    Tally tally;
+    SegmentTally tally;
     for (int i = 0; i < 60000 && !HasFatalFailure(); ++i) {
         Triangle a = random.lattice_triangle(3), b = random.lattice_triangle(3);
         if (i % 2 == 0) // coplanar in an oblique plane

@@ -15,12 +15,12 @@
 namespace abut::test {
 namespace {
 
-using LeafPairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
+using PairSet = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
 struct Collector final : UntilVisitor {
     float time;
     bool is_self;
-    LeafPairs pairs;
+    PairSet pairs;
 
     Collector(float until, bool self) : time(until), is_self(self) {}
     [[nodiscard]] float until() const override { return time; }

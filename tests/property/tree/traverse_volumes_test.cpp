@@ -12,21 +12,26 @@
 namespace abut::test {
 namespace {
 
-constexpr std::array kKinds{Volume::sphere, Volume::kdop14, Volume::kdop18, Volume::kdop26,
-                            Volume::obb,    Volume::pss,    Volume::lss,    Volume::rss};
+constexpr std::array kKinds{Volume::sphere, Volume::kdop14, Volume::kdop18,
+                            Volume::kdop26, Volume::obb,    Volume::pss,
+                            Volume::lss,    Volume::rss,    Volume::ssv};
 
 std::unique_ptr<const VolumeTree> volumes_of(const Primitives& primitives, Volume kind) {
     return build_volume_tree(kind, primitives.tree, primitives.mesh());
 }
 
-/// The trees and frames for a traversal of a scene by one kind of volume.
+constexpr std::array kSweptKinds{Volume::sphere, Volume::pss, Volume::lss, Volume::rss,
+                                 Volume::ssv};
+
+/// The trees and frames for a traversal of a scene by volumes that can be compared.
 struct Placed {
     std::unique_ptr<const VolumeTree> a, b;
     PairFrame boxes;
     VolumeFrame volumes;
 
-    Placed(const TreeScene& s, Volume kind)
-        : a(volumes_of(s.a, kind)), b(volumes_of(s.b, kind)),
+    Placed(const TreeScene& s, Volume kind) : Placed(s, kind, kind) {}
+    Placed(const TreeScene& s, Volume kind_a, Volume kind_b)
+        : a(volumes_of(s.a, kind_a)), b(volumes_of(s.b, kind_b)),
           boxes(make_pair_frame(s.a.tree, s.world_a, s.b.tree, s.world_b)),
           volumes(make_volume_frame(*a, s.world_a, *b, s.world_b)) {}
 };
@@ -52,6 +57,34 @@ TEST_P(TraverseVolumes, VisitsEveryPairWithinTheBound) {
             });
         }
     }
+    EXPECT_GT(tally.met, 300U);
+    EXPECT_GT(tally.crossed, tally.met / 2);
+    EXPECT_GT(tally.accepted, 0U);
+    EXPECT_GT(tally.within, 1000U);
+    EXPECT_LT(tally.visited, tally.total / 2);
+}
+
+TEST_P(TraverseVolumes, MixedKindsVisitEveryPairWithinTheBound) {
+    const SceneKind& kind = GetParam();
+    Random random(1306);
+    Tally tally;
+    for (const Volume kind_a : kSweptKinds)
+        for (const Volume kind_b : kSweptKinds) {
+            if (kind_a == kind_b)
+                continue;
+            const TreeScene s(random, kind, 120);
+            const PairTruth truth(s, kind.size);
+            const Vec3 direction = random.direction();
+            const Placed placed(s, kind_a, kind_b);
+            ASSERT_TRUE(placed.volumes.valid);
+            for_each_simd_target([&](const std::string& target) {
+                SCOPED_TRACE(testing::Message() << "volumes " << to_string(kind_a) << ' '
+                                                << to_string(kind_b) << ' ' << target);
+                PairTraversal pair{s.a.tree, s.b.tree, placed.boxes};
+                const VolumeTraversal t{pair, *placed.a, *placed.b, placed.volumes};
+                expect_no_pair_lost(s, truth, direction, pair, t, tally);
+            });
+        }
     EXPECT_GT(tally.met, 300U);
     EXPECT_GT(tally.crossed, tally.met / 2);
     EXPECT_GT(tally.accepted, 0U);
@@ -122,6 +155,31 @@ TEST(TraverseVolumes, FindsTheNearestPair) {
     }
 }
 
+TEST(TraverseVolumes, MixedKindsFindTheNearestPair) {
+    Random random(1307);
+    int rounds = 0;
+    std::uint64_t primitive_tests = 0, all = 0;
+    for (int round = 0; round < 10; ++round)
+        for (const Volume kind_a : kSweptKinds)
+            for (const Volume kind_b : kSweptKinds) {
+                TreeScene s(random, {"rigid", 10, 1, 0, round % 2 == 1}, 80);
+                s.put_b(apply(s.world_a, s.offset_a) + 4 * random.direction());
+                const Placed placed(s, kind_a, kind_b);
+                PairTraversal pair{s.a.tree, s.b.tree, placed.boxes, HUGE_VAL};
+                Nearest nearest(s, false);
+                EXPECT_EQ(traverse_nearest({pair, *placed.a, *placed.b, placed.volumes}, nearest),
+                          Verdict::done);
+                ASSERT_EQ(nearest.best_sq, distance_sq_of(s))
+                    << to_string(kind_a) << ' ' << to_string(kind_b);
+                primitive_tests += pair.primitive_tests;
+                all += 6400; // 80 times 80
+                ++rounds;
+            }
+    std::cout << primitive_tests << " of " << all << " pairs tested\n";
+    EXPECT_EQ(rounds, 250);
+    EXPECT_LT(primitive_tests, all / 4);
+}
+
 TEST(TraverseVolumes, AcceptsOnlyPairsWithinTheBound) {
     Random random(1303);
     int accepted = 0, done = 0;
@@ -161,6 +219,13 @@ TEST(TraverseVolumes, TreesWithoutVolumes) {
     EXPECT_EQ(obb->kind(), Volume::obb);
     EXPECT_EQ(obb->bytes(), a.tree.nodes.size() * 15 * 8 * sizeof(float));
     EXPECT_FALSE(make_volume_frame(*obb, {}, *rss, {}).valid);
+    const auto ssv = volumes_of(a, Volume::ssv), sphere = volumes_of(a, Volume::sphere),
+               kdop = volumes_of(a, Volume::kdop18);
+    EXPECT_FALSE(make_volume_frame(*obb, {}, *kdop, {}).valid);
+    EXPECT_FALSE(make_volume_frame(*kdop, {}, *ssv, {}).valid);
+    EXPECT_TRUE(make_volume_frame(*ssv, {}, *rss, {}).valid);
+    EXPECT_TRUE(make_volume_frame(*sphere, {}, *rss, {}).valid);
+    EXPECT_EQ(ssv->bytes(), rss->bytes());
     const Transform flat({1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0});
     EXPECT_FALSE(make_volume_frame(*obb, {}, *obb, flat).valid);
     EXPECT_TRUE(make_volume_frame(*obb, {}, *obb, {}).valid);

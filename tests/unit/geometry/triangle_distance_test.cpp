@@ -1,13 +1,12 @@
 // Cases worked by hand, and cases reduced from failures of the property tests.
 
 #include "geometry/triangle_triangle_distance.h"
+#include "tests/unit/geometry/floor.h"
 
 #include <gtest/gtest.h>
 
 namespace abut {
 namespace {
-
-const Triangle kFloor{Vec3{0, 0, 0}, Vec3{4, 0, 0}, Vec3{0, 4, 0}};
 
 void expect(const ClosestPoints& c, double distance, const Vec3& a, const Vec3& b) {
     EXPECT_DOUBLE_EQ(c.distance_sq, distance * distance);

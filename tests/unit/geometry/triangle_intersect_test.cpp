@@ -1,13 +1,12 @@
 // Every way in which two triangles can meet or just not meet, by hand.
 
 #include "geometry/triangle_triangle_intersect.h"
+#include "tests/unit/geometry/floor.h"
 
 #include <gtest/gtest.h>
 
 namespace abut {
 namespace {
-
-const Triangle kFloor{Vec3{0, 0, 0}, Vec3{4, 0, 0}, Vec3{0, 4, 0}};
 
 void expect(const Triangle& b, TriangleContact contact) {
     EXPECT_EQ(triangle_triangle_intersect(kFloor, b), contact);

@@ -5,15 +5,15 @@
 namespace abut {
 namespace {
 
-const Triangle kFloor{Vec3{-9, -9, 0}, Vec3{9, -9, 0}, Vec3{0, 9, 0}};
+const Triangle kWideFloor{Vec3{-9, -9, 0}, Vec3{9, -9, 0}, Vec3{0, 9, 0}};
 
 TEST(TrianglePenetration, AVertexThroughAFloor) {
-    const auto [depth, direction] =
-        triangle_triangle_penetration(kFloor, {Vec3{0, 0, -0.25}, Vec3{1, 0, 2}, Vec3{0, 1, 2}});
+    const auto [depth, direction] = triangle_triangle_penetration(
+        kWideFloor, {Vec3{0, 0, -0.25}, Vec3{1, 0, 2}, Vec3{0, 1, 2}});
     EXPECT_DOUBLE_EQ(depth, 0.25);
     EXPECT_EQ(direction, (Vec3{0, 0, 1}));
-    const auto swapped =
-        triangle_triangle_penetration({Vec3{0, 0, -0.25}, Vec3{1, 0, 2}, Vec3{0, 1, 2}}, kFloor);
+    const auto swapped = triangle_triangle_penetration(
+        {Vec3{0, 0, -0.25}, Vec3{1, 0, 2}, Vec3{0, 1, 2}}, kWideFloor);
     EXPECT_DOUBLE_EQ(swapped.depth, 0.25);
     EXPECT_EQ(swapped.direction, (Vec3{0, 0, -1}));
 }
@@ -31,8 +31,8 @@ TEST(TrianglePenetration, Degenerate) {
     const Vec3 p{0, 0, 0};
     EXPECT_EQ(triangle_triangle_penetration({p, p, p}, {p, p, p}).depth, 0);
     EXPECT_EQ(triangle_triangle_penetration({p, p, p}, {p, p, p}).direction, Vec3{});
-    EXPECT_EQ(triangle_triangle_penetration(kFloor, kFloor).depth, 0);
-    const auto [depth, direction] = triangle_triangle_penetration(kFloor, {p, p, {0, 0, 3}});
+    EXPECT_EQ(triangle_triangle_penetration(kWideFloor, kWideFloor).depth, 0);
+    const auto [depth, direction] = triangle_triangle_penetration(kWideFloor, {p, p, {0, 0, 3}});
     EXPECT_DOUBLE_EQ(depth, 0);
     EXPECT_EQ(direction, (Vec3{0, 0, 1}));
 }

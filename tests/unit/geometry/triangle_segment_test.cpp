@@ -4,13 +4,12 @@
 
 #include "geometry/triangle_triangle_segment.h"
 #include "tests/support/shapes.h"
+#include "tests/unit/geometry/floor.h"
 
 #include <gtest/gtest.h>
 
 namespace abut::test {
 namespace {
-
-const Triangle kFloor{Vec3{0, 0, 0}, Vec3{4, 0, 0}, Vec3{0, 4, 0}};
 
 std::vector<Vec3> shared(const Triangle& a, const Triangle& b) {
     const Intersection i = triangle_triangle_segment(a, b);
