@@ -117,23 +117,7 @@ void remember(const ClosestPointSearch& search, ConvexWarmStart& warm_start) {
         remember(*search.simplex, warm_start);
         return;
     }
-    auto& pairs = warm_start.pairs;
-    warm_start.kind = ConvexWarmStart::Kind::features;
-    const HullFeature &a = search.at.a, &b = search.at.b;
-    pairs[0] = {a.vertex, b.vertex};
-    pairs[1] = {a.edge, b.edge};
-    pairs[2] = {static_cast<std::uint32_t>(a.kind), static_cast<std::uint32_t>(b.kind)};
-}
-
-/// Sets a feature to a remembered one, if the polytope has it.
-void recall(const Polytope& polytope, std::uint32_t vertex, std::uint32_t edge, std::uint32_t kind,
-            HullFeature& f) {
-    if (vertex >= polytope.vertices.size())
-        return;
-    const HullVertex& v = polytope.vertices[vertex];
-    f.vertex = vertex;
-    f.edge = edge;
-    f.kind = edge - v.first_edge < v.degree ? static_cast<Feature>(kind) : Feature::vertex;
+    remember(search.at.a, search.at.b, warm_start);
 }
 
 /// Steps that a walk from the last query's end may take. A longer one means that the motion was
@@ -154,9 +138,7 @@ bool go_on(const PlacedBodies& bodies, double rounding, const ConvexWarmStart& l
         find_closest_points_from_simplex(pair, rounding, search);
         return true;
     }
-    const auto& pairs = last.pairs;
-    recall(*pair.a.polytope, pairs[0].a, pairs[1].a, pairs[2].a, search.at.a);
-    recall(*pair.b.polytope, pairs[0].b, pairs[1].b, pairs[2].b, search.at.b);
+    recall(pair, last, search.at.a, search.at.b);
     walk(pair, rounding, kSmallStep, search.at);
     const double near_end = kNearEnd * rounding;
     if (search.at.end == WalkEnd::limit && search.at.distance_sq <= 16 * near_end * near_end &&

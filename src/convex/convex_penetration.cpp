@@ -6,6 +6,7 @@
 #include "convex/proof/exact_closest_points.h"
 #include "convex/proof/exact_depth.h"
 #include "convex/search/epa.h"
+#include "convex/search/shallow_depth.h"
 #include "math/vector.h"
 
 #include <cmath>
@@ -68,6 +69,61 @@ std::optional<NearestBoundary> begin(const Bodies& bodies, ConvexWarmStart* warm
         remember(*search.simplex, *warm_start);
     return expand_simplex(pair, bodies.rounding, *search.simplex,
                           warm_start != nullptr ? &warm_start->deepest : nullptr);
+}
+
+/// Bodies whose facing vertices have passed each other by at most this share of the way between
+/// their middles overlap little.
+constexpr double kShallow = 0.4;
+
+/// The ball of the difference that the bodies' inner balls make.
+DifferenceBall ball_of(const Bodies& bodies, const Transform& world_from_a,
+                       const Transform& world_from_b) {
+    const double radius = stretch_of(world_from_a).least * bodies.a.ball.radius +
+                          stretch_of(world_from_b).least * bodies.b.ball.radius;
+    return {between_middles(bodies.a, bodies.b, bodies.pair),
+            radius - 8 * (bodies.rounding + world_rounding(bodies.pair))};
+}
+
+/// Walks to the nearest face of the difference; none if that does not prove the depth.
+std::optional<NearestBoundary> begin_shallow(const Bodies& bodies, const DifferenceBall& ball,
+                                             ConvexWarmStart* warm_start,
+                                             ConvexCounters& counters) {
+    const PolytopePair& pair = bodies.pair;
+    const double way = length(ball.middle);
+    if (!(ball.radius > 0 && way > 0x1p20 * bodies.rounding &&
+          bodies.a.outside + bodies.b.outside == 0))
+        return std::nullopt;
+    ShallowSearch search;
+    NearestBoundary nearest;
+    if (warm_start != nullptr && warm_start->kind == ConvexWarmStart::Kind::features) {
+        recall(pair, *warm_start, search.a, search.b);
+        if (static_cast<int>(search.a.kind) + static_cast<int>(search.b.kind) == 2)
+            find_shallow_depth_again(pair, ball, bodies.rounding, search, nearest);
+    }
+    if (!search.is_face) {
+        const Vec3 outward = (-1 / way) * ball.middle;
+        const VertexPair start = facing_vertices(pair, -outward);
+        const double height = dot(outward, pair.b.vertex(start.b) - pair.a.vertex(start.a));
+        if (height > kShallow * way)
+            return std::nullopt;
+        search.a = vertex_feature(start.a), search.b = vertex_feature(start.b);
+        find_shallow_depth(pair, ball, bodies.rounding, outward, height, search, nearest);
+    }
+    counters.feature_pairs += search.feature_pairs;
+    if (!search.is_face)
+        return std::nullopt;
+    if (warm_start != nullptr) {
+        remember(search.a, search.b, *warm_start);
+        warm_start->deepest.corners.clear(), warm_start->deepest.faces.clear();
+    }
+    if (nearest.is_inside_proven)
+        return nearest;
+    // The face, and a corner far behind it.
+    DifferenceSimplex simplex;
+    for (const VertexPair& corner : nearest.corners)
+        add_if_new(corner, simplex);
+    add_if_new(facing_vertices(pair, nearest.normal), simplex);
+    return expand_simplex(pair, bodies.rounding, simplex, nullptr);
 }
 
 /// Returns whether both bounds are proven and equal to rounding. The upper bound is proven by
@@ -139,6 +195,9 @@ ConvexDepth penetration(const Convex& a, const Transform& world_from_a, const Co
     std::optional<NearestBoundary> nearest;
     if (warm_start != nullptr && !warm_start->deepest.faces.empty())
         nearest = expand_again(pair, rounding, warm_start->deepest);
+    if (!nearest)
+        nearest = begin_shallow(bodies, ball_of(bodies, world_from_a, world_from_b), warm_start,
+                                result.counters);
     if (!nearest)
         nearest = begin(bodies, warm_start, result.counters);
     if (!nearest)

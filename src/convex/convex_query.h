@@ -4,6 +4,7 @@
 
 #include "convex/body/convex_data.h"
 #include "convex/search/gjk.h"
+#include "convex/search/voronoi_marching.h"
 #include "math/transform.h"
 
 #include <array>
@@ -67,5 +68,13 @@ DifferenceSimplex recalled_simplex(const PolytopePair& pair, const ConvexWarmSta
 
 /// Remembers a simplex that holds the origin.
 void remember(const DifferenceSimplex& simplex, ConvexWarmStart& warm_start);
+
+/// Sets two features to the remembered ones, as far as the polytopes have them.
+///
+/// In          a warm start that holds features.
+void recall(const PolytopePair& pair, const ConvexWarmStart& last, HullFeature& a, HullFeature& b);
+
+/// Remembers a pair of features.
+void remember(const HullFeature& a, const HullFeature& b, ConvexWarmStart& warm_start);
 
 } // namespace abut

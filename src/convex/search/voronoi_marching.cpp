@@ -6,6 +6,7 @@
 #include "convex/hull/climb-inl.h"
 #include "convex/hull/placed_xyz-inl.h"
 #include "convex/search/feature_pair-inl.h"
+#include "convex/search/neighbours-inl.h"
 
 #include <algorithm>
 #include <cmath>
@@ -169,23 +170,6 @@ void walk_features(const PolytopePair& pair, double rounding, std::uint32_t limi
                                  : next.spread_sq;
     state.proven =
         is_proof(std::max(grown_a.most, grown_b.most), spread_sq, distance_sq, rounding_sq);
-}
-
-/// The most by which a neighbour lies further along n than the feature, which is perpendicular to
-/// n: negative if the body lies behind the feature.
-HWY_INLINE double excess_along(const PlacedXyz& side, const HullFeature& f, const Xyz& n) {
-    const Polytope& p = side.polytope();
-    const Vec3 direction = to_vec3(side.pulled_back(n));
-    const HullVertex& v = p.vertices[f.vertex];
-    if (f.kind == Feature::edge) {
-        const auto excess = [&](std::uint32_t edge)
-                                HWY_ATTR { return dot(direction, p.to(edge) - v.at); };
-        return std::max(excess(p.after(v, f.edge)), excess(p.before(v, f.edge)));
-    }
-    // All neighbours of a triangle lie on one side of it: the farthest one tells which.
-    const bool is_face = f.kind == Feature::face;
-    const rings::HighestNeighbour h = rings::highest_neighbour(p, v, direction, is_face);
-    return is_face ? h.least : h.most;
 }
 
 /// A direction perpendicular to two features, towards either side, and the square of a length s:

@@ -146,6 +146,56 @@ TEST(ConvexPenetration, AWarmStartChangesNothing) {
     EXPECT_GT(apart, 30);
 }
 
+/// Bodies are brought to touch, then pushed into each other a little. Most of these depths are found
+/// by walking; so this also tests the proof by inner balls. Maps may mirror, and a warm start serves
+/// small steps and new poses.
+TEST(ConvexPenetration, ShallowOverlapsEqualTheMinimumOverAllPlanes) {
+    Random random(7104);
+    int walked = 0, expanded = 0, warm_walked = 0;
+    ConvexWarmStart warm_start;
+    for (int i = 0; i < many(500); ++i) {
+        const Convex a(make_points(random, i)), b(make_points(random, i / 4));
+        const double scale = i % 5 == 0 ? 1e-5 : i % 7 == 0 ? 1e5 : 1;
+        const Transform world_a = compose(random.pose(0), scaling(scale, scale, scale));
+        const double mirror = i % 3 == 0 ? -1 : 1;
+        Transform world_b = compose(random.pose(0), scaling(mirror * scale, scale, 1.3 * scale));
+        const Vec3 away = 4 * scale * random.direction();
+        world_b.m[9] += away.x, world_b.m[10] += away.y, world_b.m[11] += away.z;
+        const ConvexGap gap = distance(a, world_a, b, world_b);
+        ASSERT_GT(gap.distance, 0);
+        const double in = scale * std::pow(10, random.uniform(-7, -0.7));
+        const Vec3 back = (1 + in / gap.distance) * (gap.point_a - gap.point_b);
+        world_b.m[9] += back.x, world_b.m[10] += back.y, world_b.m[11] += back.z;
+        for (int step = 0; step < 3; ++step) {
+            if (step > 0)
+                world_b.m[9 + static_cast<std::size_t>(step)] += 1e-3 * scale;
+            const ConvexDepth cold = penetration(a, world_a, b, world_b),
+                              warm =
+                                  penetration(a, world_a, b, world_b, {.warm_start = &warm_start});
+            ASSERT_EQ(cold.meet, warm.meet) << i;
+            ASSERT_EQ(cold.meet, distance(a, world_a, b, world_b).distance == 0) << i;
+            if (!cold.meet)
+                continue;
+            const double truth = brute_depth(a, world_a, b, world_b),
+                         rounding = 64 * 0x1p-52 * scale * 6;
+            for (const ConvexDepth& depth : {cold, warm}) {
+                EXPECT_NEAR(depth.depth, truth, rounding) << i;
+                EXPECT_LE(depth.at_least, depth.depth) << i;
+                EXPECT_GE(depth.at_least, depth.depth - rounding) << i;
+                EXPECT_LE(length(depth.point_b + depth.depth * depth.direction - depth.point_a),
+                          rounding)
+                    << i;
+            }
+            (cold.counters.simplices == 0 ? walked : expanded) += 1;
+            warm_walked += step > 0 && warm.counters.simplices == 0 ? 1 : 0;
+        }
+        ASSERT_FALSE(HasFailure()) << "case " << i;
+    }
+    EXPECT_GT(walked, many(200));
+    EXPECT_GT(expanded, many(50));
+    EXPECT_GT(warm_walked, many(150));
+}
+
 /// One warm start serves random bodies of all kinds in turn, in steps of all sizes. The cached
 /// polytope may be dented or inside out, or may not belong to these bodies at all.
 TEST(ConvexPenetration, AWarmStartOfOtherBodiesChangesNothing) {

@@ -19,7 +19,7 @@ namespace abut::test {
 namespace {
 
 /// All points of a body, placed, including those that its polytope leaves out.
-std::vector<Vec3> placed(const Convex& body, const Transform& world) {
+std::vector<Vec3> placed_inputs(const Convex& body, const Transform& world) {
     std::vector<Vec3> points;
     for (const Vec3& p : body.vertices())
         points.push_back(apply(world, p));
@@ -56,7 +56,7 @@ struct Counts {
 /// Checks every claim of both queries, with and without a warm start, against the oracle.
 void check(const Convex& a, const Transform& world_a, const Convex& b, const Transform& world_b,
            ConvexWarmStart* warm_start, bool measure, Counts& counts) {
-    const std::vector<Vec3> pa = placed(a, world_a), pb = placed(b, world_b);
+    const std::vector<Vec3> pa = placed_inputs(a, world_a), pb = placed_inputs(b, world_b);
     const DifferenceOracle oracle(pa, pb);
     if (!oracle.is_solid())
         return;
@@ -317,7 +317,8 @@ TEST(ConvexProof, BodiesThatSlideAreMeasured) {
             }
             if (!small || step != 10)
                 continue;
-            const Precise truth = precise_distance_of_hulls(placed(a, world_a), placed(b, world_b));
+            const Precise truth =
+                precise_distance_of_hulls(placed_inputs(a, world_a), placed_inputs(b, world_b));
             ASSERT_LE(gap.at_least, truth);
             ASSERT_LE(cold.at_least, truth);
             ASSERT_LE(abs(truth - gap.distance), 1e-12 * gap.distance + 1e-14);

@@ -27,7 +27,7 @@ std::vector<Vec3> ellipsoid(Random& random, int count) {
 }
 
 /// Random points, about as large as a unit sphere.
-std::vector<Vec3> make_points(Random& random, int kind) {
+std::vector<Vec3> body_points(Random& random, int kind) {
     std::vector<Vec3> points;
     switch (kind % 8) {
     case 0:
@@ -65,7 +65,7 @@ TEST(ConvexHull, HoldsAllPointsAndNoVertexIsSuperfluous) {
     std::set<int> dimensions;
     int dropped = 0;
     for (int i = 0; i < many(200); ++i) {
-        std::vector<Vec3> points = make_points(random, i);
+        std::vector<Vec3> points = body_points(random, i);
         if (i % 3 == 0) // a coarse grid makes planes and lines exact
             for (Vec3& p : points)
                 p = {std::round(8 * p.x), std::round(8 * p.y), std::round(8 * p.z)};
@@ -196,7 +196,7 @@ TEST(ConvexDistanceOfNeedles, IsProven) {
     Random random(7019);
     int meet = 0, apart = 0;
     for (int i = 0; i < many(4000); ++i) {
-        const Convex a(make_points(random, 5)), b(make_points(random, i % 4 == 0 ? 0 : 5));
+        const Convex a(body_points(random, 5)), b(body_points(random, i % 4 == 0 ? 0 : 5));
         const Case c{a, b, random.pose(0), random.pose(0.01)};
         const ConvexGap gap = distance(c.a, c.world_a, c.b, c.world_b);
         prove(c, gap, 0x1p-50);
@@ -214,7 +214,7 @@ TEST_P(ConvexDistance, EqualsTheDistanceOfTheTriangles) {
     std::array<std::array<int, 3>, 3> features{};
     for (int i = 0; i < many(600); ++i) {
         const int kind_a = random.integer(0, 7), kind_b = random.integer(0, 7);
-        const Convex a(make_points(random, kind_a)), b(make_points(random, kind_b));
+        const Convex a(body_points(random, kind_a)), b(body_points(random, kind_b));
         const double scale = placement == Placement::small   ? 1e-6
                              : placement == Placement::large ? 1e6
                                                              : 1;
@@ -267,7 +267,7 @@ TEST(ConvexPath, AWarmStartChangesNothing) {
     Random random(7020);
     int meet = 0, apart = 0, far_jumps = 0;
     for (int i = 0; i < many(40); ++i) {
-        const Convex a(make_points(random, i)), b(make_points(random, i / 7));
+        const Convex a(body_points(random, i)), b(body_points(random, i / 7));
         ConvexWarmStart warm_start;
         Vec3 at = random.uniform(0.2, 2) * random.direction();
         Transform turn = random.pose(0);
@@ -341,7 +341,7 @@ TEST(SimplexSearch, AgreesWithTheWalk) {
     Random random(7201);
     int apart = 0, meet = 0;
     for (int i = 0; i < many(1500); ++i) {
-        const Convex a(make_points(random, i)), b(make_points(random, i / 8));
+        const Convex a(body_points(random, i)), b(body_points(random, i / 8));
         const Transform world_a = random.pose(0), world_b = random.pose(1.2);
         const double rounding = rounding_of(a.data(), world_a, b.data(), world_b);
         const PolytopePair pair(a.data().levels[0].polytope, world_a, b.data().levels[0].polytope,
