@@ -13,6 +13,7 @@
 #include "volume/kdop-inl.h"
 #include "volume/lower_bound.h"
 #include "volume/obb-inl.h"
+#include "volume/ssv-inl.h"
 #include "volume/swept_sphere-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -24,9 +25,9 @@ struct LanesBall {
     Lanes3<D> centre;
     hn::Vec<D> radius;
 };
-template <class D, std::size_t n>
+template <class D>
 HWY_INLINE LanesBall<D> ball_around_core(D d, const float (*row)[VolumeBounds::kLanes],
-                                         std::size_t lane) {
+                                         std::size_t lane, std::size_t n) {
     auto sum_sq = hn::Zero(d);
     for (std::size_t i = 0; i < n; ++i) {
         const auto half = hn::Load(d, row[4 + 4 * i + 3] + lane);
@@ -37,12 +38,20 @@ HWY_INLINE LanesBall<D> ball_around_core(D d, const float (*row)[VolumeBounds::k
 template <class D, std::size_t n>
 HWY_INLINE LanesBall<D> ball_around(D d, const VolumeBatch<SweptSphere<n>>& batch,
                                     std::size_t lane) {
-    return ball_around_core<D, n>(d, batch.row, lane);
+    return ball_around_core(d, batch.row, lane, n);
 }
 template <class D>
 HWY_INLINE LanesBall<D> ball_around(D d, const VolumeBatch<BoundingSphere>& batch,
                                     std::size_t lane) {
-    return ball_around_core<D, 0>(d, batch.row, lane);
+    return ball_around_core(d, batch.row, lane, 0);
+}
+template <class D>
+HWY_INLINE LanesBall<D> ball_around(D d, const VolumeBatch<Ssv>& batch, std::size_t lane) {
+    return ball_around_core(d, batch.row, lane, 2);
+}
+template <class D>
+HWY_INLINE LanesBall<D> ball_around(D d, const SweptBatch& batch, std::size_t lane) {
+    return ball_around_core(d, batch.row, lane, batch.most_dimension);
 }
 template <class D>
 HWY_INLINE LanesBall<D> ball_around(D d, const VolumeBatch<Obb>& batch, std::size_t lane) {
@@ -80,9 +89,8 @@ HWY_INLINE ImageBall ball_around(const KdopImage<k>& image) {
 
 /// Bounds the distances of `one` to all volumes of the batch. Without `with_upper`, upper_sq is
 /// left unchanged.
-template <bool with_upper, class D, typename V>
-HWY_INLINE void bound_all(D d, const VolumeBatch<V>& batch, const typename V::Image& one,
-                          VolumeBounds& bounds) {
+template <bool with_upper, class D, class Batch, class Image>
+HWY_INLINE void bound_all(D d, const Batch& batch, const Image& one, VolumeBounds& bounds) {
     ImageBall other{};
     if constexpr (with_upper)
         other = ball_around(one);

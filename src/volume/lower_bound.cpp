@@ -19,9 +19,9 @@ struct OneToMany {
 };
 
 /// Run-time dispatch takes functions, not templates. One function handles all kinds of volume.
-using AnyOneToMany =
-    std::variant<OneToMany<BoundingSphere>, OneToMany<Pss>, OneToMany<Lss>, OneToMany<Rss>,
-                 OneToMany<Obb>, OneToMany<Kdop14>, OneToMany<Kdop18>, OneToMany<Kdop26>>;
+using AnyOneToMany = std::variant<OneToMany<BoundingSphere>, OneToMany<Pss>, OneToMany<Lss>,
+                                  OneToMany<Rss>, OneToMany<Ssv>, OneToMany<Obb>, OneToMany<Kdop14>,
+                                  OneToMany<Kdop18>, OneToMany<Kdop26>>;
 
 } // namespace abut
 #endif
@@ -85,6 +85,7 @@ ABUT_INSTANTIATE_BOUNDS(BoundingSphere);
 ABUT_INSTANTIATE_BOUNDS(Pss);
 ABUT_INSTANTIATE_BOUNDS(Lss);
 ABUT_INSTANTIATE_BOUNDS(Rss);
+ABUT_INSTANTIATE_BOUNDS(Ssv);
 ABUT_INSTANTIATE_BOUNDS(Obb);
 ABUT_INSTANTIATE_BOUNDS(Kdop14);
 ABUT_INSTANTIATE_BOUNDS(Kdop18);

@@ -3,6 +3,7 @@
 #include "volume/kdop.h"
 #include "volume/obb.h"
 #include "volume/sphere.h"
+#include "volume/ssv.h"
 #include "volume/swept_sphere.h"
 #include "volume/volume_batch.h"
 
@@ -24,7 +25,8 @@ struct VolumeBounds {
 ///             segments the gap is their distance up to rounding. For boxes it is the widest gap
 ///             along the 15 axes, or three orthogonal gaps together.
 /// Cost        one SIMD pass: about 20 operations (sphere), 100 (LSS), 250 (OBB), 900 (RSS) for
-///             eight pairs.
+///             eight pairs. SSV: as the two kinds that are compared; a segment and rectangles take
+///             a third of RSS, a point and rectangles a twentieth.
 /// Source      OBB: [Gottschalk, Lin, Manocha 1996], swept spheres: [Larsen et al. 1999]. Differs:
 ///             no branches; the closest points only propose a direction, and the gap along it is
 ///             the result, so their rounding needs no bound.

@@ -2,7 +2,6 @@
 
 #include "math/rounding.h"
 #include "volume/aabb.h"
-#include "volume/fit/principal_axes.h"
 #include "volume/float_vector.h"
 
 #include <algorithm>
@@ -119,6 +118,8 @@ double distance_from_core(const SweptSphere<dimension>& swept, const Vec3& point
     return length(d);
 }
 
+} // namespace
+
 template <std::size_t dimension>
 SweptSphere<dimension> fit_balls(std::span<const Ball> balls, const Axes& axes) {
     const AlignedBalls aligned(balls, axes);
@@ -153,7 +154,6 @@ SweptSphere<dimension> fit_balls(std::span<const Ball> balls, const Axes& axes) 
     return swept;
 }
 
-/// Adds the balls whose convex hull is the volume.
 template <std::size_t dimension>
 void add_corners(const SweptSphere<dimension>& swept, std::vector<Ball>& balls) {
     for (unsigned corner = 0; corner < 1U << dimension; ++corner) {
@@ -168,18 +168,19 @@ void add_corners(const SweptSphere<dimension>& swept, std::vector<Ball>& balls) 
     }
 }
 
-} // namespace
-
-template <std::size_t dimension>
-SweptSphere<dimension> SweptSphere<dimension>::fit(std::span<const Triangle> triangles,
-                                                   double margin) {
+std::vector<Ball> vertex_balls(std::span<const Triangle> triangles, double margin) {
     std::vector<Ball> vertices;
     vertices.reserve(3 * triangles.size());
     for (const Triangle& t : triangles)
         for (const Vec3& p : t)
-            vertices.push_back({p, 2 * margin}); // each coordinate may be off by margin: sqrt(3)
-                                                 // margin at most
-    return fit_balls<dimension>(vertices, hull_axes(triangles));
+            vertices.push_back({p, 2 * margin}); // sqrt(3) margin at most
+    return vertices;
+}
+
+template <std::size_t dimension>
+SweptSphere<dimension> SweptSphere<dimension>::fit(std::span<const Triangle> triangles,
+                                                   double margin) {
+    return fit_balls<dimension>(vertex_balls(triangles, margin), hull_axes(triangles));
 }
 
 template <std::size_t dimension>
@@ -225,6 +226,7 @@ SweptSphereImage<dimension> image_of(const SweptSphere<dimension>& volume,
         const auto &u = image.swept.axes[0].direction, &v = image.swept.axes[1].direction;
         const float slant = dot(u, v);
         const float scale = 1 / (1 - slant * slant);
+        image.is_slanted = !(std::abs(slant) < 0x1p-20F);
         image.dual = {scaled(scale, minus_scaled(u, slant, v)),
                       scaled(scale, minus_scaled(v, slant, u))};
     }
@@ -234,6 +236,10 @@ SweptSphereImage<dimension> image_of(const SweptSphere<dimension>& volume,
 template struct SweptSphere<0>;
 template struct SweptSphere<1>;
 template struct SweptSphere<2>;
+template Pss fit_balls(std::span<const Ball>, const Axes&);
+template Lss fit_balls(std::span<const Ball>, const Axes&);
+template Rss fit_balls(std::span<const Ball>, const Axes&);
+template void add_corners(const Rss&, std::vector<Ball>&);
 template SweptSphereImage<0> image_of(const SweptSphere<0>&, const RelativePose&);
 template SweptSphereImage<1> image_of(const SweptSphere<1>&, const RelativePose&);
 template SweptSphereImage<2> image_of(const SweptSphere<2>&, const RelativePose&);

@@ -1,10 +1,12 @@
 #pragma once
 
 #include "math/vector.h"
+#include "volume/fit/principal_axes.h"
 #include "volume/relative_pose.h"
 
 #include <array>
 #include <span>
+#include <vector>
 
 namespace abut {
 
@@ -60,6 +62,20 @@ extern template struct SweptSphere<0>;
 extern template struct SweptSphere<1>;
 extern template struct SweptSphere<2>;
 
+/// A ball around each vertex. In: each coordinate may be off by `margin`.
+std::vector<Ball> vertex_balls(std::span<const Triangle> triangles, double margin);
+
+/// A swept sphere that encloses the balls. Its core lies along the first of the axes, in the order
+/// of the balls' extents.
+///
+/// In          at least one ball. Instantiated for all three dimensions.
+template <std::size_t dimension>
+SweptSphere<dimension> fit_balls(std::span<const Ball> balls, const Axes& axes);
+
+/// Adds the balls whose convex hull is the volume.
+template <std::size_t dimension>
+void add_corners(const SweptSphere<dimension>& swept, std::vector<Ball>& balls);
+
 /// A swept sphere in another frame. If the pose is not rigid, a rectangle may become a
 /// parallelogram. The ball may become an ellipsoid, whose largest radius is then used.
 template <std::size_t dimension>
@@ -67,7 +83,8 @@ struct SweptSphereImage {
     SweptSphere<dimension> swept;
     /// Vectors in the core's plane with dual_i . direction_k = 1 if i = k, else 0.
     std::array<std::array<float, 3>, dimension> dual{};
-    float circumradius = 0; ///< upper bound of a point's distance from the centre
+    bool is_slanted = false; ///< the directions are not at right angles, even to rounding
+    float circumradius = 0;  ///< upper bound of a point's distance from the centre
     float margin = 0;
 };
 

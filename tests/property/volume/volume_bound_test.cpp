@@ -15,7 +15,7 @@ namespace {
 template <typename V>
 class VolumeBound : public testing::Test {};
 
-using Volumes = testing::Types<BoundingSphere, Pss, Lss, Rss, Obb, Kdop14, Kdop18, Kdop26>;
+using Volumes = testing::Types<BoundingSphere, Pss, Lss, Rss, Ssv, Obb, Kdop14, Kdop18, Kdop26>;
 TYPED_TEST_SUITE(VolumeBound, Volumes);
 
 std::vector<Triangle> moved(std::vector<Triangle> triangles, const Transform& t) {
@@ -257,6 +257,93 @@ TEST(VolumeBound, EqualsTheDistanceOfRectangles) {
     // precision.
     EXPECT_LT(worst, 3e-3);
     EXPECT_LT(loose, 10);
+}
+
+/// A swept sphere whose core has this dimension.
+Ssv any_ssv(Random& random, std::size_t dimension) {
+    Rss rss = any_rss(random, 1);
+    for (std::size_t i = dimension; i < 2; ++i)
+        rss.axes[i] = {};
+    return Ssv(rss);
+}
+
+TEST(VolumeBound, EqualsTheDistanceOfCoresOfAnyDimension) {
+    Random random(1211);
+    for (std::size_t n = 0; n < 3; ++n)
+        for (std::size_t m = 0; m < 3; ++m) {
+            SCOPED_TRACE(testing::Message() << n << ' ' << m);
+            double worst = 0;
+            int apart = 0, loose = 0, open = 0;
+            for (int i = 0; i < 3000; ++i) {
+                const bool affine = i % 3 == 2;
+                const Ssv a = any_ssv(random, n), b = any_ssv(random, m);
+                Transform pose = random.linear_map(affine);
+                if (i % 4 == 0) // almost parallel
+                    pose = Pose{{}, {1, random.uniform(0, 1e-4), random.uniform(0, 1e-4), 0.1}};
+                const Vec3 shift =
+                    (i % 2 == 0 ? random.uniform(0, 3) : std::pow(10, random.uniform(-4, 0))) *
+                    random.direction();
+                pose.m[9] = shift.x, pose.m[10] = shift.y, pose.m[11] = shift.z;
+                const RelativePose relative = make_relative_pose(pose, a.reach(), b.reach());
+                const double cores =
+                    distance_of(halves(quadrangle(a, {})), halves(quadrangle(b, pose)));
+                // Under a map that is not rigid, b's balls are ellipsoids.
+                const double least =
+                    std::max(0.0, cores - a.radius - b.radius * stretch_of(pose).most);
+                const double bound = distance_lower_bound(a, b, relative);
+                const double most =
+                    std::max(0.0, cores - a.radius - b.radius * stretch_of(pose).least);
+                ASSERT_LE(bound, most * (1 + 1e-12)) << i;
+                open += bound > 0 ? 1 : 0;
+                if (least > 0 && !affine) {
+                    ++apart;
+                    worst = std::max(worst, least - bound);
+                    loose += least - bound > 4e-5 ? 1 : 0;
+                }
+            }
+            EXPECT_GT(apart, 450);
+            EXPECT_GT(open, 650);
+            EXPECT_LT(worst, 3e-3);
+            EXPECT_LT(loose, 4);
+        }
+}
+
+TEST(VolumeBound, MixedLanesEqualBatchesOfOneKind) {
+    for_each_simd_target([](const std::string& target) {
+        SCOPED_TRACE(target);
+        Random random(1212);
+        int open = 0, mixed = 0;
+        for (int i = 0; i < 2000; ++i) {
+            const Ssv one = any_ssv(random, static_cast<std::size_t>(i % 3));
+            Transform pose = random.linear_map(i % 5 == 0);
+            const Vec3 shift = random.uniform(0, 3) * random.direction();
+            pose.m[9] = shift.x, pose.m[10] = shift.y, pose.m[11] = shift.z;
+            const RelativePose relative = make_relative_pose(pose, 2, 2);
+            VolumeBatch<Ssv> batch;
+            std::array<std::size_t, 8> dimension{};
+            for (std::size_t lane = 0; lane < 8; ++lane) {
+                dimension[lane] = static_cast<std::size_t>(random.integer(0, 2));
+                batch.set(lane, any_ssv(random, dimension[lane]));
+                ASSERT_EQ(batch.get(lane).dimension(), dimension[lane]);
+            }
+            VolumeBounds together{};
+            bound_distances(batch, image_of(one, relative), together);
+            for (std::size_t lane = 0; lane < 8; ++lane) {
+                VolumeBatch<Ssv> alone;
+                VolumeBounds bounds{};
+                alone.set(0, batch.get(lane));
+                bound_distances(alone, image_of(one, relative), bounds);
+                ASSERT_NEAR(std::sqrt(together.lower_sq[lane]), std::sqrt(bounds.lower_sq[0]),
+                            3e-3);
+                ASSERT_NEAR(together.upper_sq[lane], bounds.upper_sq[0], 1e-5 * bounds.upper_sq[0]);
+                open += bounds.lower_sq[0] > 0 ? 1 : 0;
+                mixed += dimension[lane] < 2 ? 1 : 0;
+            }
+        }
+        EXPECT_GT(open, 8000);
+        EXPECT_LT(open, 15500);
+        EXPECT_GT(mixed, 8000);
+    });
 }
 
 TEST(VolumeBound, ThinRectanglesThatAlmostTouch) {

@@ -10,7 +10,7 @@ namespace {
 template <typename V>
 class VolumeFit : public testing::Test {};
 
-using Volumes = testing::Types<BoundingSphere, Pss, Lss, Rss, Obb, Kdop14, Kdop18, Kdop26>;
+using Volumes = testing::Types<BoundingSphere, Pss, Lss, Rss, Ssv, Obb, Kdop14, Kdop18, Kdop26>;
 TYPED_TEST_SUITE(VolumeFit, Volumes);
 
 template <typename V>
@@ -131,6 +131,7 @@ TEST(VolumeMerge, EnclosesTheVolumesThemselves) {
     expect_merge_encloses_volumes<Pss>([](const Pss& s) { return double{s.radius}; });
     expect_merge_encloses_volumes<Lss>([](const Lss& s) { return double{s.radius}; });
     expect_merge_encloses_volumes<Rss>([](const Rss& s) { return double{s.radius}; });
+    expect_merge_encloses_volumes<Ssv>([](const Ssv& s) { return double{s.radius}; });
 }
 
 /// A turned box of these half sizes around the origin, with 2 * parts^2 triangles on each side.

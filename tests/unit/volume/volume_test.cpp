@@ -94,6 +94,52 @@ TEST(Volumes, GapsAlongAnAxisAndAcrossACorner) {
     EXPECT_NEAR(gap(plate, upright), 0.5, 1e-4); // its short edge above the other's face
 }
 
+TEST(Volumes, SsvTakesTheKindThatFits) {
+    // A cube, a rod and a plate.
+    EXPECT_EQ(Ssv::fit(corners({-1, -1, -1}, {1, 1, 1})).dimension(), 0U);
+    EXPECT_EQ(Ssv::fit(corners({-20, -1, -1}, {20, 1, 1})).dimension(), 1U);
+    EXPECT_EQ(Ssv::fit(corners({-20, -20, -1}, {20, 20, 1})).dimension(), 2U);
+    // One point, one segment.
+    EXPECT_EQ(
+        Ssv::fit(std::vector<Triangle>{{Vec3{1, 2, 3}, Vec3{1, 2, 3}, Vec3{1, 2, 3}}}).dimension(),
+        0U);
+    EXPECT_EQ(
+        Ssv::fit(std::vector<Triangle>{{Vec3{1, 2, 3}, Vec3{1, 2, 3}, Vec3{4, 5, 6}}}).dimension(),
+        1U);
+}
+
+TEST(Volumes, GapsBetweenSsvOfAllKinds) {
+    // Cores that extend 2 along x, or 2 along x and 1 along y, swept by 0.25.
+    const auto core = [](std::size_t dimension) {
+        Ssv swept;
+        swept.radius = 0.25F;
+        if (dimension > 0)
+            swept.axes[0] = {{1, 0, 0}, 2};
+        if (dimension > 1)
+            swept.axes[1] = {{0, 1, 0}, 1};
+        return swept;
+    };
+    const auto gap = [&](std::size_t a, std::size_t b, const Transform& t) {
+        const RelativePose pose = make_relative_pose(t, 4, 4);
+        EXPECT_EQ(image_of(core(b), pose).dimension, b);
+        return distance_lower_bound(core(a), core(b), pose);
+    };
+    for (std::size_t a = 0; a < 3; ++a)
+        for (std::size_t b = 0; b < 3; ++b) {
+            SCOPED_TRACE(testing::Message() << a << ' ' << b);
+            const double reach_x = (a > 0 ? 2 : 0) + (b > 0 ? 2 : 0),
+                         reach_y = (a > 1 ? 1 : 0) + (b > 1 ? 1 : 0);
+            EXPECT_NEAR(gap(a, b, shift(0, 0, 3)), 2.5, 1e-4);
+            EXPECT_NEAR(gap(a, b, shift(reach_x + 3, 0, 4)), 4.5, 1e-4);
+            EXPECT_NEAR(gap(a, b, shift(0, reach_y + 3, 4)), 4.5, 1e-4);
+            EXPECT_NEAR(gap(a, b, shift(reach_x + 3, reach_y + 4, 12)), 12.5, 2e-4);
+            // b stands upright, with its x along z: its lower end is 2 below its middle.
+            const Transform upright({0, 0, 1, 0, 1, 0, -1, 0, 0, 0, 0, 3});
+            EXPECT_NEAR(gap(a, b, upright), b > 0 ? 0.5 : 2.5, 1e-4);
+            EXPECT_EQ(gap(a, b, shift(0, 0, 0.4)), 0);
+        }
+}
+
 TEST(Volumes, UpperBoundsReachTheFarEnds) {
     const Rss plate = Rss::fit(corners({-3, -4, 0}, {3, 4, 0}));
     VolumeBatch<Rss> batch;
