@@ -190,6 +190,7 @@ Gap distance(const PlacedPair& pair, const DistanceOptions& options) {
             traversal.steps = SearchSteps(*options.max_steps);
         pair.visit_nearest(traversal, finder);
         finder.finish();
+        counters.volume = pair.volume();
         counters.volume_tests = traversal.volume_tests;
         counters.primitive_tests = traversal.primitive_tests;
         steps = traversal.steps;

@@ -32,8 +32,9 @@ struct ManifoldMemory {
     /// Frees what one huge pair has needed.
     void trim() {
         constexpr std::size_t kMostKept = 1U << 14U;
-        if (meetings.all.capacity() > kMostKept || meetings.points.capacity() > 4 * kMostKept)
-            meetings = {};
+        if (meetings.all.capacity() > kMostKept || meetings.points.capacity() > 4 * kMostKept ||
+            meetings.faces.capacity() > 2 * kMostKept)
+            meetings = {}, regions = {}; // the regions keep a list as long
         if (part.capacity() > kMostKept || one_part.capacity() > kMostKept)
             part = {}, one_part = {};
     }
@@ -107,7 +108,7 @@ public:
     std::vector<ModelManifold> find(const std::vector<Contact>& pairs) {
         static thread_local ManifoldMemory memory;
         describe_meetings(a_, b_, pairs, margin_, memory.meetings);
-        memory.regions.group(a_, b_, memory.meetings.all);
+        memory.regions.group(memory.meetings);
         const std::span<const TriangleMeeting> all(memory.meetings.all);
         for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
             poll_stop();
@@ -124,11 +125,11 @@ private:
     void add_region(std::span<const TriangleMeeting> region, ManifoldMemory& memory) {
         const RegionFrame frame = region_frame(a_, b_, region, true);
         if ((frame.only_touches || frame.is_flush) && (a_.is_oriented() || b_.is_oriented()) &&
-            add_doubtful(region, frame, memory.meetings.points))
+            add_doubtful(region, frame, memory.meetings))
             return;
         const std::uint32_t parts = split_where_hollow(region, memory.part);
         if (parts == 1 || frame.is_hole) {
-            add(region, memory.meetings.points, frame);
+            add(region, memory.meetings, frame);
             return;
         }
         for (std::uint32_t k = 0; k < parts; ++k) {
@@ -137,8 +138,7 @@ private:
                 if (memory.part[i] == k)
                     memory.one_part.push_back(region[i]);
             if (!memory.one_part.empty())
-                add(memory.one_part, memory.meetings.points,
-                    region_frame(a_, b_, memory.one_part, false));
+                add(memory.one_part, memory.meetings, region_frame(a_, b_, memory.one_part, false));
         }
     }
 
@@ -147,7 +147,7 @@ private:
     /// nothing, if the interiors do not overlap, or if the frame agrees with what `penetration`
     /// finds.
     bool add_doubtful(std::span<const TriangleMeeting> region, const RegionFrame& frame,
-                      const std::vector<FixedPoint>& points) {
+                      const TriangleMeetings& meetings) {
         if (!depth_) {
             depth_ = depth_of(model_a_, pair_.world_from_a(), model_b_, pair_.world_from_b());
             depth_used_.assign(depth_->regions.size(), false);
@@ -157,7 +157,7 @@ private:
         const std::optional<std::size_t> k = deepest_of(region);
         if (k) {
             const ContactRegion& found = depth_->regions[*k];
-            if (frame.crosses && !frame.is_hole && agrees(region, points, frame, found))
+            if (frame.crosses && !frame.is_hole && agrees(region, meetings, frame, found))
                 return false;
             if (!depth_used_[*k])
                 manifolds_.push_back(manifold_of(found));
@@ -165,7 +165,7 @@ private:
             return true;
         }
         if (frame.only_touches)
-            add(region, points, frame, Status::bound_only);
+            add(region, meetings, frame, Status::bound_only);
         return frame.only_touches;
     }
 
@@ -189,18 +189,18 @@ private:
     /// Whether the frame's normal is near the direction of a region that `penetration` found, and
     /// points of about its depth are found along that normal.
     [[nodiscard]] bool agrees(std::span<const TriangleMeeting> region,
-                              const std::vector<FixedPoint>& points, const RegionFrame& frame,
+                              const TriangleMeetings& meetings, const RegionFrame& frame,
                               const ContactRegion& found) const {
         constexpr double kLeastCos = 0.5, kLeastDepth = 0.5;
         return dot(frame.normal, found.direction) > kLeastCos &&
-               choose_points(a_, b_, region, points, frame, {margin_, last_names_})
+               choose_points(a_, b_, region, meetings, frame, {margin_, last_names_})
                        .points[0]
                        .depth > kLeastDepth * found.depth;
     }
 
-    void add(std::span<const TriangleMeeting> region, const std::vector<FixedPoint>& points,
+    void add(std::span<const TriangleMeeting> region, const TriangleMeetings& meetings,
              const RegionFrame& frame, Status at_best = Status::exact) {
-        ModelManifold m = choose_points(a_, b_, region, points, frame, {margin_, last_names_});
+        ModelManifold m = choose_points(a_, b_, region, meetings, frame, {margin_, last_names_});
         for (std::uint32_t i = 0; i < m.count; ++i) {
             m.points[i].point_a = m.points[i].point_a + origin_;
             m.points[i].point_b = m.points[i].point_b + origin_;

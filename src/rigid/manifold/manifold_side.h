@@ -44,12 +44,30 @@ public:
     /// In          direction: a unit vector.
     [[nodiscard]] LineHit top_along(const Vec3& point, const Vec3& direction) const;
 
-private:
+    /// A triangle that a ray meets.
     struct SurfaceHit {
         bool found = false;
         double height = 0;
-        bool leaves = false; ///< the line passes from the inside to the outside
+        bool leaves = false; ///< the ray passes from the inside to the outside
     };
+    /// Replaces a hit by that of a triangle in the world if the ray meets the triangle earlier.
+    /// Returns whether it did.
+    bool take_earlier(const Triangle& triangle, const Vec3& point, const Vec3& direction,
+                      SurfaceHit& hit) const;
+    /// As `top_along`, where first_hit(point, direction) finds the first hit of a ray.
+    template <typename FirstHit>
+    [[nodiscard]] LineHit top_along(const Vec3& point, const Vec3& direction,
+                                    const FirstHit& first_hit) const {
+        const SurfaceHit ahead = first_hit(point, direction);
+        if (ahead.found && ahead.leaves)
+            return {true, ahead.height};
+        const SurfaceHit behind = first_hit(point, -direction);
+        if (behind.found && (!behind.leaves || !is_oriented()))
+            return {true, -behind.height};
+        return {};
+    }
+
+private:
     [[nodiscard]] SurfaceHit first_hit(const Vec3& point, const Vec3& direction) const;
 
     PlacedModel model_;

@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <limits>
+#include <numeric>
 
 namespace abut {
 
@@ -57,6 +58,17 @@ bool hollow_between(const NormalPart& p, const NormalPart& q) {
 
 } // namespace
 
+void MeetingRegions::sort_by_region(std::vector<TriangleMeeting>& meetings, std::uint32_t count) {
+    next_.assign(count + 1, 0);
+    for (const TriangleMeeting& m : meetings)
+        ++next_[m.region + 1];
+    std::partial_sum(next_.begin(), next_.end(), next_.begin());
+    sorted_.resize(meetings.size());
+    for (const TriangleMeeting& m : meetings)
+        sorted_[next_[m.region]++] = m;
+    meetings.swap(sorted_);
+}
+
 void MeetingRegions::begin_pass(std::size_t meetings) {
     // A table that was needed once for a huge pair is not kept.
     constexpr std::size_t kMostKept = std::size_t{1} << 16U;
@@ -81,30 +93,28 @@ std::uint32_t MeetingRegions::first_with(std::uint64_t key, std::uint32_t meetin
     }
 }
 
-std::uint32_t MeetingRegions::group(const ManifoldSide& a, const ManifoldSide& b,
-                                    std::vector<TriangleMeeting>& meetings) {
-    DisjointSets sets(meetings.size());
-    const auto connect = [&](const ManifoldSide& other, std::uint32_t TrianglePair::*shared,
-                             std::uint32_t TrianglePair::*differing) {
-        begin_pass(meetings.size());
-        for (std::uint32_t i = 0; i < meetings.size(); ++i) {
-            const std::uint64_t key = std::uint64_t{meetings[i].pair.*shared} << 32U;
-            for (const std::uint32_t v : other.vertices(meetings[i].pair.*differing))
+std::uint32_t MeetingRegions::group(TriangleMeetings& meetings) {
+    std::vector<TriangleMeeting>& all = meetings.all;
+    DisjointSets sets(all.size());
+    const auto connect = [&](std::uint32_t TrianglePair::*shared,
+                             std::uint32_t TriangleMeeting::*differing) {
+        begin_pass(all.size());
+        for (std::uint32_t i = 0; i < all.size(); ++i) {
+            const std::uint64_t key = std::uint64_t{all[i].pair.*shared} << 32U;
+            for (const std::uint32_t v : meetings.faces[all[i].*differing].vertices)
                 if (const std::uint32_t j = first_with(key | v, i); j != i)
                     sets.unite(i, j);
         }
     };
-    connect(b, &TrianglePair::a, &TrianglePair::b);
-    connect(a, &TrianglePair::b, &TrianglePair::a);
+    connect(&TrianglePair::a, &TriangleMeeting::face_b);
+    connect(&TrianglePair::b, &TriangleMeeting::face_a);
     std::uint32_t count = 0;
-    for (std::uint32_t i = 0; i < meetings.size(); ++i) {
+    for (std::uint32_t i = 0; i < all.size(); ++i) {
         const std::uint32_t root = sets.root(i); // the least member: it has its region already
-        meetings[i].region = root == i ? count++ : meetings[root].region;
+        all[i].region = root == i ? count++ : all[root].region;
     }
     if (count > 1)
-        std::stable_sort(
-            meetings.begin(), meetings.end(),
-            [](const TriangleMeeting& m, const TriangleMeeting& n) { return m.region < n.region; });
+        sort_by_region(all, count);
     return count;
 }
 

@@ -18,9 +18,8 @@ public:
     /// Sets the region of each meeting and sorts them by it, and within a region by pair. Returns
     /// the number of regions.
     ///
-    /// Cost        expected linear, but for the sort.
-    std::uint32_t group(const ManifoldSide& a, const ManifoldSide& b,
-                        std::vector<TriangleMeeting>& meetings);
+    /// Cost        expected linear.
+    std::uint32_t group(TriangleMeetings& meetings);
 
 private:
     struct Slot {
@@ -28,11 +27,15 @@ private:
         std::uint32_t meeting = 0;
         std::uint32_t used_in = 0; ///< the pass that filled the slot
     };
+    /// Keeps the order within a region.
+    void sort_by_region(std::vector<TriangleMeeting>& meetings, std::uint32_t count);
     void begin_pass(std::size_t meetings);
     /// The first meeting of this pass that has the key: `meeting` if there is none yet.
     std::uint32_t first_with(std::uint64_t key, std::uint32_t meeting);
 
     std::vector<Slot> slots_;
+    std::vector<std::uint32_t> next_; ///< where the next meeting of a region goes
+    std::vector<TriangleMeeting> sorted_;
     std::uint32_t pass_ = 0;
 };
 

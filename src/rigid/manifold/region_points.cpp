@@ -1,5 +1,7 @@
 #include "rigid/manifold/region_points.h"
 
+#include "rigid/manifold/parallel_rays.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,6 +29,13 @@ constexpr double kClearlyDeeper = 1.02;
 constexpr std::ptrdiff_t kMostTried = 16;
 /// A point that adds less than this share of the region's extent is not needed.
 constexpr double kLeastSpread = 1e-3;
+/// Points where the surfaces meet are chosen before those with a gap, as long as they add at least
+/// this share of the region's extent. Else the points of a region whose places lie far apart, such
+/// as the rim of a cup, would have gaps while deep places remain without a point.
+constexpr double kMeetingSpread = 0.125;
+
+/// A region of at most this many triangles is searched for its deepest line.
+constexpr std::size_t kFewTriangles = 24;
 
 /// A place where a contact point may be.
 struct PointCandidate {
@@ -50,6 +59,27 @@ struct Extreme {
 
 using Extremes = std::array<Extreme, kAround>;
 
+/// Vertices that a region has collected. It may forget some.
+class CollectedVertices {
+public:
+    [[nodiscard]] bool has(std::uint32_t vertex) const { return kept_[vertex % kSize] == vertex; }
+    void add(std::uint32_t vertex) { kept_[vertex % kSize] = vertex; }
+
+private:
+    static constexpr std::size_t kSize = 64;
+    static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+    std::array<std::uint32_t, kSize> kept_ = [] {
+        std::array<std::uint32_t, kSize> none{};
+        none.fill(kNone);
+        return none;
+    }();
+};
+
+/// Memory that a thread uses again for its next region.
+struct RayMemory {
+    ParallelRays a, b;
+};
+
 /// A candidate of the last step stays until another one exceeds it by this factor: rounding and
 /// small motions do not change the choice.
 constexpr double kLoyalty = 1.1;
@@ -71,9 +101,9 @@ void take_everywhere(Extremes& extremes, double x, double y, const PointCandidat
 class PointChooser {
 public:
     PointChooser(const ManifoldSide& a, const ManifoldSide& b,
-                 std::span<const TriangleMeeting> region, const std::vector<FixedPoint>& points,
-                 const RegionFrame& frame, const ChoiceOptions& options)
-        : a_(a), b_(b), region_(region), points_(points), frame_(frame),
+                 std::span<const TriangleMeeting> region, const TriangleMeetings& meetings,
+                 const RegionFrame& frame, const ChoiceOptions& options, RayMemory& rays)
+        : a_(a), b_(b), region_(region), meetings_(meetings), frame_(frame), rays_(rays),
           // Of heights: PlacedModel's positions, and sums of their products.
           rounding_(0x1p-46 * (a.model().reach() + b.model().reach())),
           margin_(options.margin + rounding_), last_(options.last) {}
@@ -91,8 +121,9 @@ public:
         }
         add(*first);
         tried_[static_cast<std::size_t>(tried_count_++)] = first->feature;
-        for (bool more = true; more && manifold_.count < 4;)
-            more = add_farthest();
+        for (const Among among : {Among::meeting, Among::all})
+            for (bool more = true; more && manifold_.count < 4;)
+                more = add_farthest(among);
         const auto used = manifold_.points.begin();
         std::iter_swap(used, std::max_element(used, used + manifold_.count,
                                               [](const ContactPoint& p, const ContactPoint& q) {
@@ -105,7 +136,7 @@ private:
     void collect() {
         for (const TriangleMeeting& m : region_) {
             for (std::uint32_t i = 0; i < m.point_count; ++i)
-                collect_fixed(points_[m.first_point + i]);
+                collect_fixed(meetings_.points[m.first_point + i]);
             if (m.kind != TriangleContact::cross)
                 continue;
             const double height = dot(frame_.normal, m.from - frame_.centre);
@@ -119,6 +150,9 @@ private:
         for (const TriangleMeeting& m : region_)
             if (m.kind == TriangleContact::cross)
                 collect_vertices(m);
+        const double radius = farthest_reach();
+        rays_.a.begin(a_, frame_, radius, region_.size() <= kFewTriangles);
+        rays_.b.begin(b_, frame_, radius, region_.size() <= kFewTriangles);
     }
 
     [[nodiscard]] PointCandidate candidate(PointCandidate::Kind kind, const Vec3& at,
@@ -131,25 +165,31 @@ private:
         const double depth = dot(frame_.normal, p.a - p.b);
         PointCandidate c = candidate(PointCandidate::Kind::fixed, p.a, p.feature);
         c.on_b = p.b;
-        take_everywhere(fixed_, frame_.right(p.a), frame_.up(p.a), c);
+        take_everywhere(depth >= -rounding_ ? fixed_ : gaps_, frame_.right(p.a), frame_.up(p.a), c);
         deepest_fixed_.take(depth, c);
     }
 
-    /// The vertices of each triangle that lie behind the other one.
+    /// The vertices of each triangle that lie behind the other one. A vertex counts once.
     void collect_vertices(const TriangleMeeting& m) {
-        const Triangle ta = a_.triangle(m.pair.a), tb = b_.triangle(m.pair.b);
-        const auto va = a_.vertices(m.pair.a), vb = b_.vertices(m.pair.b);
+        const MeetingFace &fa = meetings_.faces[m.face_a], &fb = meetings_.faces[m.face_b];
         const Vec3 &n = frame_.normal, out_a = outward(a_, m.normal_a, n),
                    out_b = outward(b_, m.normal_b, -n);
         for (std::size_t k = 0; k < 3; ++k) {
-            if (dot(out_a, tb[k] - m.from) < 0)
+            const std::uint32_t vb = fb.vertices[k], va = fa.vertices[k];
+            if (const Vec3& p = fb.corners[k];
+                !collected_b_.has(vb) && dot(out_a, p - m.from) < 0) {
+                collected_b_.add(vb);
                 collect_vertex(
-                    vertices_b_, lowest_b_, -dot(n, tb[k] - frame_.centre),
-                    candidate(PointCandidate::Kind::vertex_b, tb[k], point_name::vertex_b(vb[k])));
-            if (dot(out_b, ta[k] - m.from) < 0)
+                    vertices_b_, lowest_b_, -dot(n, p - frame_.centre),
+                    candidate(PointCandidate::Kind::vertex_b, p, point_name::vertex_b(vb)));
+            }
+            if (const Vec3& p = fa.corners[k];
+                !collected_a_.has(va) && dot(out_b, p - m.from) < 0) {
+                collected_a_.add(va);
                 collect_vertex(
-                    vertices_a_, highest_a_, dot(n, ta[k] - frame_.centre),
-                    candidate(PointCandidate::Kind::vertex_a, ta[k], point_name::vertex_a(va[k])));
+                    vertices_a_, highest_a_, dot(n, p - frame_.centre),
+                    candidate(PointCandidate::Kind::vertex_a, p, point_name::vertex_a(va)));
+            }
         }
     }
     /// Open surfaces count as facing the other side.
@@ -182,13 +222,13 @@ private:
         } else {
             p.point_a = p.point_b = c.at;
             if (c.kind != PointCandidate::Kind::vertex_a) {
-                const ManifoldSide::LineHit top = a_.top_along(c.at, n);
+                const ManifoldSide::LineHit top = rays_.a.top_along(c.at, n);
                 if (!top.found)
                     return std::nullopt;
                 p.point_a = c.at + top.height * n;
             }
             if (c.kind != PointCandidate::Kind::vertex_b) {
-                const ManifoldSide::LineHit bottom = b_.top_along(c.at, -n);
+                const ManifoldSide::LineHit bottom = rays_.b.top_along(c.at, -n);
                 if (!bottom.found)
                     return std::nullopt;
                 p.point_b = c.at - bottom.height * n;
@@ -215,7 +255,6 @@ private:
     /// The deepest line that is found from the middle of the curve on. A curve of few triangles is
     /// searched in steps that halve: where edges cross, the deepest line is where they cross.
     [[nodiscard]] std::optional<ContactPoint> deepest_inside() const {
-        constexpr std::size_t kFewTriangles = 24;
         constexpr int kRounds = 6;
         PointCandidate line{PointCandidate::Kind::line, frame_.centre, {}, point_name::kMiddle};
         std::optional<ContactPoint> best = measured(line);
@@ -286,14 +325,18 @@ private:
                tried_.begin() + tried_count_;
     }
 
+    enum class Among : std::uint8_t { meeting, all };
+
     /// The candidate for a direction: the vertex or fixed point that is farthest, unless it lies
     /// far inside the curve; else a place on the curve. Of the kind `none` if all were tried. A
     /// fixed point, whose depth may be 0, does not replace a vertex at the same place.
-    [[nodiscard]] PointCandidate standing_for(std::size_t direction) const {
+    [[nodiscard]] PointCandidate standing_for(std::size_t direction, Among among) const {
         const Extreme& curve = curve_[direction];
         const Extreme* best = nullptr;
-        for (const Extremes* e : {&vertices_b_, &vertices_a_, &fixed_}) {
+        for (const Extremes* e : {&vertices_b_, &vertices_a_, &fixed_, &gaps_}) {
             const Extreme& extreme = (*e)[direction];
+            if (among == Among::meeting && e == &gaps_)
+                continue;
             if (extreme.candidate.kind != PointCandidate::Kind::none &&
                 !is_tried(extreme.candidate.feature) &&
                 extreme.reach >= kVertexReach * curve.reach &&
@@ -310,13 +353,14 @@ private:
     }
 
     /// Adds the point that widens the chosen ones most. Returns false if none does.
-    bool add_farthest() {
-        const double least = kLeastSpread * extent_of_region();
+    bool add_farthest(Among among) {
+        const double least =
+            (among == Among::meeting ? kMeetingSpread : kLeastSpread) * extent_of_region();
         while (tried_count_ < kMostTried) {
             double best_spread = least;
             PointCandidate best;
             for (std::size_t k = 0; k < kAround; ++k) {
-                const PointCandidate c = standing_for(k);
+                const PointCandidate c = standing_for(k, among);
                 if (c.kind == PointCandidate::Kind::none)
                     continue;
                 if (const double s = favoured(spread(place(c.at)), c); s > best_spread)
@@ -336,35 +380,49 @@ private:
     [[nodiscard]] double extent_of_region() const {
         double extent = 0;
         for (std::size_t k = 0; k < kAround / 2; ++k)
-            for (const Extremes* e : {&fixed_, &vertices_a_, &vertices_b_, &curve_})
+            for (const Extremes* e : {&fixed_, &gaps_, &vertices_a_, &vertices_b_, &curve_})
                 if ((*e)[k].candidate.kind != PointCandidate::Kind::none)
                     extent = std::max(extent, (*e)[k].reach + (*e)[k + kAround / 2].reach);
         return extent;
     }
 
+    /// The largest distance from the centre, seen along the normal, of what has been collected.
+    [[nodiscard]] double farthest_reach() const {
+        // The extremes in eight directions bound it to 1 / cos(pi / 8).
+        constexpr double kBetweenDirections = 1.0824;
+        double reach = 0;
+        for (const Extremes* e : {&vertices_a_, &vertices_b_, &curve_})
+            for (const Extreme& extreme : *e)
+                reach = std::max(reach, extreme.reach);
+        return kBetweenDirections * reach;
+    }
+
     const ManifoldSide& a_;
     const ManifoldSide& b_;
     std::span<const TriangleMeeting> region_;
-    const std::vector<FixedPoint>& points_;
+    const TriangleMeetings& meetings_;
     const RegionFrame& frame_;
+    RayMemory& rays_;
     double rounding_; ///< bounds that of heights
     double margin_;
-    std::span<const std::uint64_t> last_; ///< names of the last step
-    Extremes vertices_a_, vertices_b_, fixed_, curve_;
+    std::span<const std::uint64_t> last_;                     ///< names of the last step
+    Extremes vertices_a_, vertices_b_, fixed_, gaps_, curve_; ///< fixed_ have no gap
     Extreme lowest_b_, highest_a_, deepest_fixed_;
     double lowest_ = 0, highest_ = 0; ///< heights over the centre; see is_near_curve
     std::array<std::uint64_t, kMostTried> tried_{};
     std::ptrdiff_t tried_count_ = 0;
     ModelManifold manifold_;
+    CollectedVertices collected_a_, collected_b_;
 };
 
 } // namespace
 
 ModelManifold choose_points(const ManifoldSide& a, const ManifoldSide& b,
                             std::span<const TriangleMeeting> region,
-                            const std::vector<FixedPoint>& points, const RegionFrame& frame,
+                            const TriangleMeetings& meetings, const RegionFrame& frame,
                             const ChoiceOptions& options) {
-    return PointChooser(a, b, region, points, frame, options).choose();
+    static thread_local RayMemory rays;
+    return PointChooser(a, b, region, meetings, frame, options, rays).choose();
 }
 
 } // namespace abut

@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace abut {
 
@@ -16,15 +15,16 @@ struct ChoiceOptions {
 };
 
 /// Chooses up to four contact points of a region: the deepest, the one farthest from it, the one
-/// farthest from the line through both, and the one farthest from the triangle of these. Of the
-/// chosen points the deepest comes first.
+/// farthest from the line through both, and the one farthest from the triangle of these. Places
+/// where the surfaces meet are chosen before those with a gap. Of the chosen points the deepest
+/// comes first.
 ///
-/// In          region: not empty; points: those that its meetings name.
+/// In          region: not empty; meetings: those of both sides.
 /// Returns     the points in the frame of the sides, at least one.
 /// Cost        at most 170 rays for a region of at most 24 triangle pairs, else at most 70.
 ModelManifold choose_points(const ManifoldSide& a, const ManifoldSide& b,
                             std::span<const TriangleMeeting> region,
-                            const std::vector<FixedPoint>& points, const RegionFrame& frame,
+                            const TriangleMeetings& meetings, const RegionFrame& frame,
                             const ChoiceOptions& options);
 
 } // namespace abut

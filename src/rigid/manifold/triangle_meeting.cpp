@@ -4,6 +4,7 @@
 #include "geometry/triangle_triangle_segment.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -81,6 +82,31 @@ CommonSegment common_segment(const Triangle& ta, const Vec3& n_a, const Triangle
                                                    : CommonSegment{common.from, common.from};
 }
 
+/// The faces that some of the last meetings had, by triangle.
+class RecentFaces {
+public:
+    /// The place of a triangle among the faces. Adds it if it is not among the recent ones.
+    std::uint32_t face(const ManifoldSide& side, std::uint32_t triangle,
+                       std::vector<MeetingFace>& faces) {
+        Entry& entry = entries_[triangle % kSize];
+        if (entry.triangle == triangle && entry.known)
+            return entry.face;
+        entry = {triangle, static_cast<std::uint32_t>(faces.size()), true};
+        const Triangle t = side.triangle(triangle);
+        const Vec3 normal = side.facing() * cross(t[1] - t[0], t[2] - t[0]);
+        faces.push_back({t, side.vertices(triangle), normal, normalized_or_zero(normal)});
+        return entry.face;
+    }
+
+private:
+    struct Entry {
+        std::uint32_t triangle = 0, face = 0;
+        bool known = false;
+    };
+    static constexpr std::size_t kSize = 64;
+    std::array<Entry, kSize> entries_{};
+};
+
 /// Describes the meetings one by one.
 class MeetingWriter {
 public:
@@ -89,20 +115,15 @@ public:
         : a_(a), b_(b), margin_(margin), meetings_(meetings) {}
 
     void add(const Contact& contact) {
-        if (contact.pair.a != triangle_a_ || !known_) {
-            triangle_a_ = contact.pair.a, known_ = true;
-            ta_ = a_.triangle(triangle_a_);
-            n_a_ = a_.facing() * cross(ta_[1] - ta_[0], ta_[2] - ta_[0]);
-            unit_a_ = normalized_or_zero(n_a_);
-        }
-        tb_ = b_.triangle(contact.pair.b);
-        const Vec3 n_b = b_.facing() * cross(tb_[1] - tb_[0], tb_[2] - tb_[0]);
         TriangleMeeting m;
         m.pair = contact.pair, m.kind = contact.kind;
-        m.normal_a = unit_a_, m.normal_b = normalized_or_zero(n_b);
+        m.face_a = recent_a_.face(a_, m.pair.a, meetings_.faces);
+        m.face_b = recent_b_.face(b_, m.pair.b, meetings_.faces);
+        const MeetingFace &fa = meetings_.faces[m.face_a], &fb = meetings_.faces[m.face_b];
+        m.normal_a = fa.unit_normal, m.normal_b = fb.unit_normal;
         m.first_point = static_cast<std::uint32_t>(meetings_.points.size());
         if (contact.kind == TriangleContact::cross) {
-            const CommonSegment s = common_segment(ta_, n_a_, tb_, n_b);
+            const CommonSegment s = common_segment(fa.corners, fa.normal, fb.corners, fb.normal);
             m.from = s.from, m.to = s.to;
             m.weight = length(s.to - s.from);
             // Faces that are coplanar to rounding cross along rounding noise.
@@ -110,8 +131,8 @@ public:
             if (length_sq(cross(m.normal_a, m.normal_b)) < kCoplanarSq)
                 m.to = m.from, m.weight = 0;
         } else if (contact.kind == TriangleContact::touch) {
-            add_touching(m);
-        } else if (!add_near(m)) {
+            add_touching(m, fa, fb);
+        } else if (!add_near(m, fa, fb)) {
             return;
         }
         m.point_count = static_cast<std::uint32_t>(meetings_.points.size()) - m.first_point;
@@ -119,12 +140,12 @@ public:
     }
 
 private:
-    void add_touching(TriangleMeeting& m) {
-        const Intersection common = triangle_triangle_segment(ta_, tb_);
+    void add_touching(TriangleMeeting& m, const MeetingFace& fa, const MeetingFace& fb) {
+        const Intersection common = triangle_triangle_segment(fa.corners, fb.corners);
         const auto& c = common.corners;
         m.from = m.to = c[0];
         for (std::uint32_t k = 0; k < common.count; ++k) {
-            meetings_.points.push_back({c[k], c[k], name_of(c[k], m.pair, k)});
+            meetings_.points.push_back({c[k], c[k], name_of(c[k], m.pair, k, fa, fb)});
             m.weight += length(c[k] - c[(k + 1) % common.count]);
         }
         if (common.count < 3 || !(dot(m.normal_a, m.normal_b) < 0))
@@ -137,21 +158,23 @@ private:
 
     /// A vertex that lies at the point names it; else the two triangles do.
     [[nodiscard]] std::uint64_t name_of(const Vec3& p, const TrianglePair& pair,
-                                        std::uint32_t corner) const {
+                                        std::uint32_t corner, const MeetingFace& fa,
+                                        const MeetingFace& fb) const {
         for (std::size_t k = 0; k < 3; ++k)
-            if (tb_[k] == p)
-                return point_name::vertex_b(b_.vertices(pair.b)[k]);
+            if (fb.corners[k] == p)
+                return point_name::vertex_b(fb.vertices[k]);
         for (std::size_t k = 0; k < 3; ++k)
-            if (ta_[k] == p)
-                return point_name::vertex_a(a_.vertices(pair.a)[k]);
+            if (fa.corners[k] == p)
+                return point_name::vertex_a(fa.vertices[k]);
         return point_name::triangles(pair, corner);
     }
 
     /// Adds the nearest points, and those of each vertex within the margin. Returns false, and adds
     /// nothing, if a face looks away from the other: it is the far side of a thin body, or lies
     /// inside the other one.
-    bool add_near(TriangleMeeting& m) {
-        const ClosestPoints nearest = triangle_triangle_distance(ta_, tb_);
+    bool add_near(TriangleMeeting& m, const MeetingFace& fa, const MeetingFace& fb) {
+        const Triangle &ta = fa.corners, &tb = fb.corners;
+        const ClosestPoints nearest = triangle_triangle_distance(ta, tb);
         const Vec3 gap = normalized_or_zero(nearest.b - nearest.a);
         constexpr double kLooksAway = 0.5; // by more than 120 degrees
         if ((a_.is_oriented() && dot(gap, m.normal_a) < -kLooksAway) ||
@@ -161,13 +184,12 @@ private:
         // A pair whose gap equals the margin still has a direction.
         m.weight = std::max(margin_ - std::sqrt(nearest.distance_sq), 0x1p-40 * margin_);
         const double most_sq = margin_ * margin_;
-        const auto vertices_a = a_.vertices(m.pair.a), vertices_b = b_.vertices(m.pair.b);
         auto& points = meetings_.points;
         for (std::size_t k = 0; k < 3; ++k) {
-            if (const auto on_a = nearest_on_triangle(tb_[k], ta_); on_a.distance_sq <= most_sq)
-                points.push_back({on_a.point, tb_[k], point_name::vertex_b(vertices_b[k])});
-            if (const auto on_b = nearest_on_triangle(ta_[k], tb_); on_b.distance_sq <= most_sq)
-                points.push_back({ta_[k], on_b.point, point_name::vertex_a(vertices_a[k])});
+            if (const auto on_a = nearest_on_triangle(tb[k], ta); on_a.distance_sq <= most_sq)
+                points.push_back({on_a.point, tb[k], point_name::vertex_b(fb.vertices[k])});
+            if (const auto on_b = nearest_on_triangle(ta[k], tb); on_b.distance_sq <= most_sq)
+                points.push_back({ta[k], on_b.point, point_name::vertex_a(fa.vertices[k])});
         }
         if (nearest.on_a.kind != Feature::vertex && nearest.on_b.kind != Feature::vertex)
             points.push_back({nearest.a, nearest.b, point_name::triangles(m.pair)});
@@ -178,10 +200,7 @@ private:
     const ManifoldSide& b_;
     double margin_;
     TriangleMeetings& meetings_;
-    bool known_ = false;
-    std::uint32_t triangle_a_ = 0; ///< the triangle of a that is kept for the next meeting
-    Triangle ta_{}, tb_{};
-    Vec3 n_a_, unit_a_;
+    RecentFaces recent_a_, recent_b_;
 };
 
 } // namespace
@@ -207,6 +226,7 @@ void describe_meetings(const ManifoldSide& a, const ManifoldSide& b,
                        TriangleMeetings& meetings) {
     meetings.all.clear();
     meetings.points.clear();
+    meetings.faces.clear();
     meetings.all.reserve(pairs.size());
     MeetingWriter writer(a, b, margin, meetings);
     SearchSteps steps;

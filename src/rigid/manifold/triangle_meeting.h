@@ -14,6 +14,14 @@ struct FixedPoint {
     std::uint64_t feature = 0;
 };
 
+/// A triangle that meets others.
+struct MeetingFace {
+    Triangle corners;
+    std::array<std::uint32_t, 3> vertices{}; ///< merged, as ManifoldSide::vertices
+    Vec3 normal;                             ///< outward; its length is twice the area
+    Vec3 unit_normal;                        ///< zero without area
+};
+
 /// Two triangles that meet, or that are within the margin.
 ///
 /// Frame       that of the sides.
@@ -21,6 +29,7 @@ struct TriangleMeeting {
     TrianglePair pair;
     TriangleContact kind = TriangleContact::none; ///< none: they are only near
     std::uint32_t region = 0;
+    std::uint32_t face_a = 0, face_b = 0;           ///< in TriangleMeetings::faces
     std::uint32_t first_point = 0, point_count = 0; ///< of touching and near pairs: fixed points
     Vec3 normal_a, normal_b;                        ///< outward unit normals; zero without area
     /// Crossing: the common segment, along normal_a x normal_b; one of its points, twice, if the
@@ -37,6 +46,7 @@ struct TriangleMeeting {
 struct TriangleMeetings {
     std::vector<TriangleMeeting> all;
     std::vector<FixedPoint> points;
+    std::vector<MeetingFace> faces; ///< of both sides; a triangle may be there several times
 };
 
 /// Names of contact points.

@@ -119,8 +119,8 @@ std::size_t Model::bytes() const noexcept {
 }
 
 const char* to_string(Volume volume) {
-    constexpr std::array kNames{"automatic", "aabb", "sphere", "kdop14", "kdop18",
-                                "kdop26",    "obb",  "pss",    "lss",    "rss"};
+    constexpr std::array kNames{"automatic", "aabb", "sphere", "kdop14", "kdop18", "kdop26",
+                                "obb",       "pss",  "lss",    "rss",    "ssv"};
     return kNames.at(static_cast<std::size_t>(volume));
 }
 

@@ -3,7 +3,7 @@
 #include "math/vector.h"
 
 /// How long two moving sets stay apart: the inequalities on which the time of impact rests.
-/// docs/time-of-impact.md derives them.
+/// docs/motion-bounds.md derives them.
 ///
 /// All lengths are in one frame; times count from now. A result is 0 if nothing is proven, and
 /// infinite if the sets never meet.

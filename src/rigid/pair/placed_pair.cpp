@@ -26,6 +26,11 @@ void PlacedPair::compare_frames() {
             make_volume_frame(*a().volumes(), world_from_tree_a, *b().volumes(), world_from_tree_b);
 }
 
+Volume PlacedPair::volume() const {
+    const Volume common = common_volume(a().volume(), b().volume());
+    return volume_frame_.valid || common == Volume::aabb ? common : Volume::automatic;
+}
+
 Verdict PlacedPair::visit_contacts(PairTraversal& t, LeafPairVisitor& visitor) const {
     return volume_frame_.valid
                ? traverse_contacts({t, *a().volumes(), *b().volumes(), volume_frame_}, visitor)

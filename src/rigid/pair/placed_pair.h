@@ -46,7 +46,10 @@ public:
     [[nodiscard]] PairTraversal traversal(double bound_sq) const {
         return {a().tree(), b().tree(), frame_, bound_sq};
     }
-    /// Traverse the models' volumes, if both have volumes of the same kind; otherwise their boxes.
+    /// The kind of volume that a traversal tests.
+    [[nodiscard]] Volume volume() const;
+    /// Traverse the models' volumes if their kinds can be compared (common_volume); otherwise their
+    /// boxes.
     Verdict visit_contacts(PairTraversal& traversal, LeafPairVisitor& visitor) const;
     Verdict visit_within(PairTraversal& traversal, LeafPairVisitor& visitor) const;
     Verdict visit_nearest(PairTraversal& traversal, LeafPairVisitor& visitor) const;
@@ -58,7 +61,7 @@ private:
     std::optional<Model> baked_a_, baked_b_; ///< the transformed copies, if there are any
     Transform world_from_a_, world_from_b_;
     PairFrame frame_;
-    VolumeFrame volume_frame_; ///< valid if both models have volumes of the same kind
+    VolumeFrame volume_frame_; ///< valid if the models' volumes can be compared
 };
 
 /// The world triangles of two leaves, computed on demand.

@@ -96,6 +96,30 @@ Mesh surface_of(const OrientedBox& box) {
     return mesh;
 }
 
+/// The half-spaces outside of the faces of a box. All corners lie behind them, to rounding, also
+/// where a thin face far from the origin has a normal that is hardly better than noise. A face
+/// without a clear outside gives none, and its normal is zero.
+std::array<PlacedModel::HalfSpace, 6> outsides_of(const Mesh& box) {
+    std::array<PlacedModel::HalfSpace, 6> outsides;
+    const Vec3 middle = 0.5 * (box.positions[0] + box.positions[7]);
+    for (std::size_t face = 0; face < 6; ++face) {
+        const auto& t = box.triangles[2 * face];
+        const Vec3 &p = box.positions[t[0]], &q = box.positions[t[1]], &r = box.positions[t[2]];
+        Vec3 normal = normalized_or_zero(cross(q - p, r - p));
+        const double out = dot(normal, p - middle);
+        if (!(std::abs(out) > 0x1p-20 * (length(q - p) + length(r - p))))
+            continue;
+        if (out < 0)
+            normal = -normal;
+        const Vec3 farthest = *std::max_element(
+            box.positions.begin(), box.positions.end(), [&](const Vec3& a, const Vec3& b) {
+                return dot(normal, a - middle) < dot(normal, b - middle);
+            });
+        outsides[face] = {farthest, normal};
+    }
+    return outsides;
+}
+
 Triangles find(const PlacedModel& model, const OrientedBox& box, Wanted wanted) {
     require_finite(box.world_from_box, "transform of the box");
     if (!require_box(box.box))
@@ -123,7 +147,13 @@ Triangles find(const PlacedModel& model, const OrientedBox& box, Wanted wanted) 
         return meet || placed_box.contains_off_surface(t[0]);
     };
     Collector collect(model, wanted, meets);
-    model.for_each_overlap(bounds, [&](std::uint32_t slot) { collect(slot); });
+    // The first triangles tell the traversal, one by one, what lies outside of the box.
+    const std::array<PlacedModel::HalfSpace, 6> outsides = outsides_of(surface.mesh());
+    std::size_t told = 0;
+    model.for_each_overlap_outside(bounds, [&](std::uint32_t slot) {
+        collect(slot);
+        return told < outsides.size() ? outsides[told++] : PlacedModel::HalfSpace{};
+    });
     return std::move(collect.found);
 }
 

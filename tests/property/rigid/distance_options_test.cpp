@@ -7,6 +7,7 @@
 
 #include "geometry/triangle_triangle_distance.h"
 #include "scenes/bodies.h"
+#include "tests/support/infinity.h"
 #include "tests/support/oracle/brute_force.h"
 #include "tests/support/oracle/thickness_oracle.h"
 #include "tests/support/rounds.h"
@@ -21,7 +22,6 @@
 namespace abut::test {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 64 * 0x1p-53;
 
 /// Two placed models; the second moves around the first.

@@ -300,7 +300,7 @@ TEST_P(HardInputs, EqualBruteForce) {
             for (int i = 0; i < 3; ++i, ++rounds) {
                 double reach = 0;
                 Case c = make_case(random, place, shape_a, shape_b, reach);
-                c.volume = static_cast<Volume>(rounds % (static_cast<int>(Volume::rss) + 1));
+                c.volume = static_cast<Volume>(rounds % (static_cast<int>(Volume::ssv) + 1));
                 const double d = check(c);
                 const Transform motion = put(random, 1, {}, random.in_cube(reach));
                 expect_same_when_moved(c, d, motion, 4 * reach);
@@ -328,7 +328,7 @@ TEST(HardInputs, CoincidentModels) {
                 const Mesh mesh = make_mesh(random, shape);
                 const Transform world = put(random, 1, {}, random.in_cube(far));
                 Case c{mesh, mesh, world, world};
-                c.volume = static_cast<Volume>(rounds++ % (static_cast<int>(Volume::rss) + 1));
+                c.volume = static_cast<Volume>(rounds++ % (static_cast<int>(Volume::ssv) + 1));
                 if (nudged)
                     for (std::size_t i = 9; i < 12; ++i)
                         c.world_b.m[i] = random.nudge(c.world_b.m[i], 4);

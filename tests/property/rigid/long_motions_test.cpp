@@ -20,7 +20,7 @@
 namespace abut::test {
 namespace {
 
-struct Case {
+struct LongMotion {
     Model a, b;
     Motion motion_a, motion_b;
 
@@ -37,7 +37,7 @@ struct Case {
 
 /// Whether the models meet at a sampled time in [begin, end). Half of the samples are close to the
 /// end; local minima of the distance are refined.
-bool is_seen_to_meet(const Case& c, double begin, double end) {
+bool is_seen_to_meet(const LongMotion& c, double begin, double end) {
     constexpr int kSamples = 60, kSections = 40;
     std::vector<double> times{begin, end - 1e-9 * (end - begin)};
     for (int i = 1; i < kSamples; ++i) {
@@ -74,7 +74,7 @@ class UnlikeTriangles {
 public:
     UnlikeTriangles(Random& random, double digits) : random_(random), digits_(digits) {}
 
-    Case make() {
+    LongMotion make() {
         kind_ = random_.integer(0, 3);
         along_ = random_.direction();
         across_ = perpendicular(along_);
@@ -137,7 +137,7 @@ TEST(LongMotions, TrianglesOfUnlikeSizesStayApart) {
     constexpr int kCases = 3000;
     int proven = 0, beyond = 0, tight = 0;
     for (int i = 0; i < kCases; ++i) {
-        const Case c = UnlikeTriangles(random, random.uniform(0, 7)).make();
+        const LongMotion c = UnlikeTriangles(random, random.uniform(0, 7)).make();
         const MovingPair pair(c.a.data().tree(), c.a.data().model_from_tree(), c.motion_a,
                               c.b.data().tree(), c.b.data().model_from_tree(), c.motion_b);
         const double begin = random.chance(0.5) ? 0 : random.uniform(0, 1),
@@ -168,7 +168,7 @@ TEST(LongMotions, AreNeverLateAndTakeFewSteps) {
     int hits = 0, undecided = 0;
     std::uint64_t most_steps = 0;
     for (int i = 0; i < kCases; ++i) {
-        const Case c = UnlikeTriangles(random, random.uniform(0, 7)).make();
+        const LongMotion c = UnlikeTriangles(random, random.uniform(0, 7)).make();
         const Impact impact = c.ask({.absolute_error = 1e-6});
         if (impact.time > 0) {
             ASSERT_FALSE(is_seen_to_meet(c, 0, impact.time)) << "case " << i;
@@ -215,7 +215,7 @@ TEST(LongMotions, ALargePlateMeetsASmallBall) {
         for (const auto& [motion_a, motion_b] : {std::pair{spin({0.6, 0, 0}), still},
                                                  {spin({0.6, 0.1, 0.2}), still},
                                                  {spin({0.6, 0.1, 0.2}), beside}}) {
-            const Case c{large, ball, motion_a, motion_b};
+            const LongMotion c{large, ball, motion_a, motion_b};
             const Impact impact = c.ask({.absolute_error = 8e-5});
             EXPECT_TRUE(impact.meet);
             EXPECT_EQ(impact.status, Status::exact);
@@ -246,7 +246,7 @@ TEST(LongMotions, NeedlesPassAndPlatesSlideInFewSteps) {
     for (const double size : {1.0, 1e2, 1e4, 1e6}) {
         const Model low(needle(size, 1e-3, 0)), high(needle(size, 1e-3, 1e-3));
         for (const Vec3& w : {Vec3{0, 0, 2}, {0.01, 0, 2}, {1, 1, 2}, {1, 0, 2}, {-1, 0.3, 2}}) {
-            const Case c{low, high, spin(w), Motion::fixed({})};
+            const LongMotion c{low, high, spin(w), Motion::fixed({})};
             const Impact impact = c.ask({.absolute_error = 1e-4});
             EXPECT_FALSE(is_seen_to_meet(c, 0, impact.time));
             EXPECT_LT(impact.steps, 300U) << size << ' ' << w.x << ' ' << w.y;
@@ -255,8 +255,9 @@ TEST(LongMotions, NeedlesPassAndPlatesSlideInFewSteps) {
         // The gap is just above the smallest tolerance, and below the others.
         for (const double tolerance : {1e-4, 1e-3, 1.0})
             for (const double tilt : {0.0, 1e-5 / size}) {
-                const Case c{Model(floor_mesh(size, 3, 0)), Model(floor_mesh(size, 3, 1.1e-4)),
-                             Motion{{}, {}, {0.1, 0.2, 0}, {tilt, 0, 1}}, spin({0, 0, 3})};
+                const LongMotion c{Model(floor_mesh(size, 3, 0)),
+                                   Model(floor_mesh(size, 3, 1.1e-4)),
+                                   Motion{{}, {}, {0.1, 0.2, 0}, {tilt, 0, 1}}, spin({0, 0, 3})};
                 const Impact impact = c.ask({.absolute_error = tolerance});
                 EXPECT_FALSE(impact.meet) << size << ' ' << tolerance << ' ' << tilt;
                 EXPECT_EQ(impact.status, Status::exact);
@@ -373,12 +374,13 @@ TEST(LongMotions, ALimitOnStepsLeavesAProvenTime) {
     Random random(3303);
     int limited = 0, misses = 0;
     for (int i = 0; i < 60; ++i) {
-        const Case c =
+        const LongMotion c =
             i % 2 == 0
                 ? UnlikeTriangles(random, 4).make()
-                : Case{Model(torus_mesh(0.6, 0.2, 10, 5)), Model(soup_mesh(random, 30, 0.6, 0.3)),
-                       Motion{{}, {}, random.in_cube(2), random.in_cube(3)},
-                       Motion::fixed({random.uniform(1.2, 2) * random.direction(), {1, 0, 0, 0}})};
+                : LongMotion{
+                      Model(torus_mesh(0.6, 0.2, 10, 5)), Model(soup_mesh(random, 30, 0.6, 0.3)),
+                      Motion{{}, {}, random.in_cube(2), random.in_cube(3)},
+                      Motion::fixed({random.uniform(1.2, 2) * random.direction(), {1, 0, 0, 0}})};
         const Impact whole = c.ask({.absolute_error = 1e-6});
         EXPECT_FALSE(whole.out_of_steps);
         misses += whole.meet ? 0 : 1;
@@ -410,9 +412,9 @@ TEST(LongMotions, ALimitOnStepsLeavesAProvenTime) {
 }
 
 TEST(LongMotions, StopAndReportProgress) {
-    const Case c{Model(torus_mesh(0.6, 0.2, 40, 20)), Model(torus_mesh(0.6, 0.2, 40, 20)),
-                 Motion{{{-2, 0, 0}, {1, 0, 0, 0}}, {-2, 0, 0}, {1.5, 0, 0}, {1, 2, 3}},
-                 Motion::fixed({})};
+    const LongMotion c{Model(torus_mesh(0.6, 0.2, 40, 20)), Model(torus_mesh(0.6, 0.2, 40, 20)),
+                       Motion{{{-2, 0, 0}, {1, 0, 0, 0}}, {-2, 0, 0}, {1.5, 0, 0}, {1, 2, 3}},
+                       Motion::fixed({})};
     const auto is_interrupted = [](const auto& query) {
         try {
             (void)query();

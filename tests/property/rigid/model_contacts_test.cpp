@@ -33,7 +33,7 @@ double distance_to(const Model& model, const Transform& world, const Vec3& p) {
     return std::sqrt(least_sq);
 }
 
-Transform moved(Transform t, const Vec3& shift) {
+Transform shifted(Transform t, const Vec3& shift) {
     t.m[9] += shift.x, t.m[10] += shift.y, t.m[11] += shift.z;
     return t;
 }
@@ -52,10 +52,11 @@ ShallowPair shallow_pair(Random& random, Model a, Model b, double depth) {
     const Transform start = pair.place_b;
     for (int i = 0; i < 50; ++i) {
         const double middle = 0.5 * (near + far);
-        const bool meet = collide(pair.a, pair.place_a, pair.b, moved(start, middle * way)).meet();
+        const bool meet =
+            collide(pair.a, pair.place_a, pair.b, shifted(start, middle * way)).meet();
         (meet ? near : far) = middle;
     }
-    pair.place_b = moved(start, (far - depth) * way);
+    pair.place_b = shifted(start, (far - depth) * way);
     return pair;
 }
 
@@ -138,7 +139,7 @@ TEST(ModelContactsProperty, ShallowContactsPartAlongTheirNormals) {
         ++single;
         // Both measure the same lens: one along the normal, one to the nearest surface.
         close += found > 0.7 * known ? 1 : 0;
-        const Transform away = moved(pair.place_b, (1.3 * found + 1e-9) * m.normal);
+        const Transform away = shifted(pair.place_b, (1.3 * found + 1e-9) * m.normal);
         parted += collide(pair.a, pair.place_a, pair.b, away).meet() ? 0 : 1;
     }
     std::cout << single << " single regions, " << parted << " parted, " << close << " as deep\n";

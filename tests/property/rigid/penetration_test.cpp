@@ -16,7 +16,7 @@
 namespace abut::test {
 namespace {
 
-constexpr int kShapes = 6;
+constexpr int kBodies = 6;
 
 /// Solids, convex or not, with one or two components.
 Mesh solid_mesh(int kind) {
@@ -72,13 +72,13 @@ template <typename Check>
 void for_each_pair(std::uint64_t seed, int pairs, const Check& check) {
     Random random(seed);
     std::vector<std::unique_ptr<Body>> bodies;
-    for (int k = 0; k < kShapes; ++k) {
+    for (int k = 0; k < kBodies; ++k) {
         bodies.push_back(std::make_unique<Body>(solid_mesh(k)));
         ASSERT_TRUE(bodies.back()->solid.closed);
     }
     for (int i = 0; i < pairs && !testing::Test::HasFatalFailure(); ++i) {
-        const Body &a = *bodies[std::size_t(random.integer(0, kShapes - 1))],
-                   &b = *bodies[std::size_t(random.integer(0, kShapes - 1))];
+        const Body &a = *bodies[std::size_t(random.integer(0, kBodies - 1))],
+                   &b = *bodies[std::size_t(random.integer(0, kBodies - 1))];
         const Transform world_a = random.pose(0.6), world_b = random.pose(0.6);
         SCOPED_TRACE(i);
         check(random, Pair{a, b, world_a, world_b});

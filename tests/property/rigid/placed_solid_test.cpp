@@ -92,7 +92,7 @@ TEST(Interpenetrate, BoxesOnAGrid) {
             b(random.chance(0.5) ? box_mesh(b_low, b_high) : reversed(box_mesh(b_low, b_high)));
         const Vec3 low = max(a_low, b_low), high = min(a_high, b_high);
         const bool overlap = low.x < high.x && low.y < high.y && low.z < high.z;
-        const Outcome m = meeting(a, b);
+        const Meeting m = meeting(a, b);
         if (m.contacts.empty())
             continue;
         ++meet, go_in += overlap ? 1 : 0;

@@ -15,7 +15,7 @@ namespace {
 
 enum class Placement { rigid, affine, far, flattened, rigid_on_grid };
 
-Mesh make_mesh(Random& random, int kind) {
+Mesh make_pair_mesh(Random& random, int kind) {
     switch (kind) {
     case 0:
         return torus_mesh(1, 0.35, 12, 7);
@@ -49,7 +49,7 @@ Transform place(Random& random, Placement kind, const Vec3& at) {
     return t;
 }
 
-struct Case {
+struct PairCase {
     Model a, b;
     Transform world_a, world_b;
 };
@@ -63,7 +63,7 @@ double largest_coordinate(const std::vector<PlacedTriangle>& triangles) {
 }
 
 /// Checks all queries. Returns whether the models meet.
-bool check(const Case& c) {
+bool check(const PairCase& c) {
     const auto a = placed_triangles(c.a.mesh(), c.world_a),
                b = placed_triangles(c.b.mesh(), c.world_b);
     const std::vector<TrianglePair> pairs = brute_pairs(a, b);
@@ -133,8 +133,9 @@ TEST_P(Rigid, EqualsBruteForce) {
                 if (placement == Placement::rigid_on_grid)
                     off = {std::round(off.x * 4) / 4, std::round(off.y * 4) / 4,
                            std::round(off.z * 4) / 4};
-                const Case c{Model(make_mesh(random, kind_a)), Model(make_mesh(random, kind_b)),
-                             place(random, placement, at), place(random, placement, at + off)};
+                const PairCase c{Model(make_pair_mesh(random, kind_a)),
+                                 Model(make_pair_mesh(random, kind_b)),
+                                 place(random, placement, at), place(random, placement, at + off)};
                 meet += check(c) ? 1 : 0;
                 ASSERT_FALSE(HasFailure()) << "kinds " << kind_a << ' ' << kind_b << ", case " << i;
             }
@@ -152,9 +153,10 @@ TEST(Rigid, EverySimdTargetAgrees) {
         int meet = 0;
         for (int i = 0; i < 30; ++i) {
             const auto placement = i % 2 == 0 ? Placement::rigid : Placement::affine;
-            const Case c{Model(make_mesh(random, i % 5)), Model(make_mesh(random, i / 5 % 5)),
-                         place(random, placement, {}),
-                         place(random, placement, random.uniform(0.6, 2.2) * random.direction())};
+            const PairCase c{
+                Model(make_pair_mesh(random, i % 5)), Model(make_pair_mesh(random, i / 5 % 5)),
+                place(random, placement, {}),
+                place(random, placement, random.uniform(0.6, 2.2) * random.direction())};
             meet += check(c) ? 1 : 0;
         }
         EXPECT_GT(meet, 5);
@@ -165,7 +167,7 @@ TEST(Rigid, EverySimdTargetAgrees) {
 TEST(Rigid, CoincidentModels) {
     Random random(1011);
     for (int kind = 0; kind < 5; ++kind) {
-        const Model m(make_mesh(random, kind));
+        const Model m(make_pair_mesh(random, kind));
         const Transform t = place(random, Placement::affine, random.in_cube(5));
         EXPECT_TRUE(check({m, m, t, t}));
     }
@@ -175,7 +177,7 @@ TEST(Rigid, ACommonMotionChangesNothing) {
     Random random(1012);
     int apart = 0;
     for (int i = 0; i < 60; ++i) {
-        const Model a(make_mesh(random, i % 5)), b(make_mesh(random, i / 5 % 5));
+        const Model a(make_pair_mesh(random, i % 5)), b(make_pair_mesh(random, i / 5 % 5));
         const Transform world_a = random.pose(1),
                         world_b = compose(translation(random.uniform(1, 3), 0, 0), random.pose(1));
         const double before = distance(a, world_a, b, world_b).distance;
@@ -194,7 +196,8 @@ TEST(Rigid, ScalesOfMillionthsAndMillions) {
     for (const double scale : {1e-6, 1e6, 1e-15, 1e15}) {
         int meet = 0;
         for (int i = 0; i < 25; ++i) {
-            const Mesh mesh_a = make_mesh(random, i % 5), mesh_b = make_mesh(random, i / 5);
+            const Mesh mesh_a = make_pair_mesh(random, i % 5),
+                       mesh_b = make_pair_mesh(random, i / 5);
             const Transform world_a = random.pose(0), scaled = scaling(scale, scale, scale);
             Transform world_b = random.pose(0);
             const Vec3 off = random.uniform(0.6, 2.2) * random.direction();

@@ -17,9 +17,9 @@
 namespace abut::test {
 namespace {
 
-constexpr std::array kVolumes{Volume::aabb,   Volume::sphere, Volume::kdop14,
-                              Volume::kdop18, Volume::kdop26, Volume::obb,
-                              Volume::pss,    Volume::lss,    Volume::rss};
+constexpr std::array kVolumes{Volume::aabb,   Volume::sphere, Volume::kdop14, Volume::kdop18,
+                              Volume::kdop26, Volume::obb,    Volume::pss,    Volume::lss,
+                              Volume::rss,    Volume::ssv};
 
 /// Whether the hierarchy stores boxes only.
 bool boxes_only(Volume volume) {
@@ -27,7 +27,7 @@ bool boxes_only(Volume volume) {
 }
 
 /// Meshes of some hundred triangles, about 1 across.
-Mesh any_mesh(Random& random, int kind) {
+Mesh volume_mesh(Random& random, int kind) {
     switch (kind % 4) {
     case 0:
         return scenes::boulder(300, 7);
@@ -53,20 +53,20 @@ Transform any_placement(Random& random, int round, const Vec3& at) {
 }
 
 /// The true answers, from all pairs.
-struct Truth {
+struct PairTruth {
     std::vector<TrianglePair> pairs;
     double distance = 0;
 
-    Truth(const Mesh& a, const Transform& world_a, const Mesh& b, const Transform& world_b) {
+    PairTruth(const Mesh& a, const Transform& world_a, const Mesh& b, const Transform& world_b) {
         const auto placed_a = placed_triangles(a, world_a), placed_b = placed_triangles(b, world_b);
         pairs = brute_pairs(placed_a, placed_b);
         distance = pairs.empty() ? brute_distance(placed_a, placed_b) : 0;
     }
 };
 
-constexpr double kRounding = 64 * 0x1p-53;
+constexpr double kVolumeRounding = 64 * 0x1p-53;
 
-void expect_truth(const Truth& truth, const Model& a, const Transform& world_a, const Model& b,
+void expect_truth(const PairTruth& truth, const Model& a, const Transform& world_a, const Model& b,
                   const Transform& world_b) {
     EXPECT_EQ(collide(a, world_a, b, world_b, {.mode = ContactMode::all}).pairs, truth.pairs);
     const Contacts first = collide(a, world_a, b, world_b);
@@ -76,19 +76,19 @@ void expect_truth(const Truth& truth, const Model& a, const Transform& world_a, 
 
     const double d = truth.distance;
     const Gap gap = distance(a, world_a, b, world_b);
-    EXPECT_NEAR(gap.distance, d, kRounding);
+    EXPECT_NEAR(gap.distance, d, kVolumeRounding);
     EXPECT_EQ(gap.distance == 0, !truth.pairs.empty());
     EXPECT_EQ(gap.status, Status::exact);
     const auto near = [&](double tolerance) { return within(a, world_a, b, world_b, tolerance); };
     EXPECT_EQ(near(0), !truth.pairs.empty());
-    EXPECT_TRUE(near(d + kRounding));
+    EXPECT_TRUE(near(d + kVolumeRounding));
     EXPECT_TRUE(near(2 * d + 1));
     EXPECT_TRUE(near(HUGE_VAL));
     if (d > 1e-9) {
-        EXPECT_FALSE(near(d - kRounding));
+        EXPECT_FALSE(near(d - kVolumeRounding));
         EXPECT_FALSE(near(d / 3));
         EXPECT_NEAR(distance(a, world_a, b, world_b, {.upper_bound = 1.5 * d}).distance, d,
-                    kRounding);
+                    kVolumeRounding);
         const Gap cut = distance(a, world_a, b, world_b, {.upper_bound = d / 2});
         EXPECT_EQ(cut.distance, d / 2);
         EXPECT_EQ(cut.status, Status::bound_only);
@@ -104,7 +104,7 @@ TEST_P(RigidVolumes, EqualBruteForce) {
     std::uint64_t tests = 0, of_boxes = 0;
     for (int kind_a = 0; kind_a < 4; ++kind_a)
         for (int kind_b = 0; kind_b < 4; ++kind_b) {
-            const Mesh mesh_a = any_mesh(random, kind_a), mesh_b = any_mesh(random, kind_b);
+            const Mesh mesh_a = volume_mesh(random, kind_a), mesh_b = volume_mesh(random, kind_b);
             const Model a(mesh_a, {volume}), b(mesh_b, {volume}), boxes_a(mesh_a), boxes_b(mesh_b);
             ASSERT_EQ(a.data().volumes() == nullptr, boxes_only(volume));
             for (int i = 0; i < 6; ++i, ++rounds) {
@@ -112,7 +112,7 @@ TEST_P(RigidVolumes, EqualBruteForce) {
                 const Transform world_a = any_placement(random, i, at),
                                 world_b = any_placement(
                                     random, i, at + random.uniform(0.3, 1.6) * random.direction());
-                const Truth truth(mesh_a, world_a, mesh_b, world_b);
+                const PairTruth truth(mesh_a, world_a, mesh_b, world_b);
                 expect_truth(truth, a, world_a, b, world_b);
                 expect_truth(truth, boxes_a, world_a, boxes_b, world_b);
                 ASSERT_FALSE(HasFailure()) << "kinds " << kind_a << ' ' << kind_b << ", " << i;
@@ -131,11 +131,25 @@ TEST_P(RigidVolumes, EqualBruteForce) {
 }
 INSTANTIATE_TEST_SUITE_P(Volumes, RigidVolumes, testing::ValuesIn(kVolumes));
 
-TEST(RigidVolumes, BoxesAnswerForModelsOfDifferentKinds) {
+TEST(RigidVolumes, KindsThatModelsHaveInCommon) {
+    const auto is_swept = [](Volume v) {
+        return v == Volume::sphere || v == Volume::pss || v == Volume::lss || v == Volume::rss ||
+               v == Volume::ssv;
+    };
+    for (const Volume a : abut::kVolumes)
+        for (const Volume b : abut::kVolumes) {
+            const Volume expected = a == b                       ? a
+                                    : is_swept(a) && is_swept(b) ? Volume::ssv
+                                                                 : Volume::automatic;
+            EXPECT_EQ(common_volume(a, b), expected) << to_string(a) << ' ' << to_string(b);
+        }
+}
+
+TEST(RigidVolumes, ModelsOfDifferentKindsTellWhatWasTested) {
     Random random(4101);
-    const Mesh mesh_a = any_mesh(random, 1), mesh_b = any_mesh(random, 3);
+    const Mesh mesh_a = volume_mesh(random, 1), mesh_b = volume_mesh(random, 3);
     const Model boxes_a(mesh_a), boxes_b(mesh_b);
-    int meet = 0, rounds = 0;
+    int meet = 0, rounds = 0, swept = 0, different = 0;
     for (std::size_t i = 0; i < kVolumes.size(); ++i)
         for (std::size_t j = 0; j < kVolumes.size(); ++j) {
             if (i == j)
@@ -144,20 +158,33 @@ TEST(RigidVolumes, BoxesAnswerForModelsOfDifferentKinds) {
             const Transform world_a = any_placement(random, rounds, {}),
                             world_b = any_placement(random, rounds,
                                                     random.uniform(0.3, 1.6) * random.direction());
-            const Truth truth(mesh_a, world_a, mesh_b, world_b);
+            const PairTruth truth(mesh_a, world_a, mesh_b, world_b);
             expect_truth(truth, a, world_a, b, world_b);
             ASSERT_FALSE(HasFailure()) << i << ' ' << j;
+            const Volume common = common_volume(kVolumes[i], kVolumes[j]);
+            const Counters counters = distance(a, world_a, b, world_b).counters,
+                           of_boxes = distance(boxes_a, world_a, boxes_b, world_b).counters;
+            ASSERT_EQ(counters.volume, common);
+            ASSERT_EQ(of_boxes.volume, Volume::automatic);
+            const Contacts contacts = collide(a, world_a, b, world_b, {.mode = ContactMode::all});
+            if (contacts.counters.volume_tests > 0) {
+                ASSERT_EQ(contacts.counters.volume, common);
+            }
             // The tree of a model with `aabb` differs from the automatic one, and so do its
             // counters.
-            if (kVolumes[i] != Volume::aabb && kVolumes[j] != Volume::aabb) {
-                ASSERT_EQ(distance(a, world_a, b, world_b).counters.volume_tests,
-                          distance(boxes_a, world_a, boxes_b, world_b).counters.volume_tests);
+            if (common == Volume::ssv) {
+                ++swept;
+                different += counters.volume_tests != of_boxes.volume_tests ? 1 : 0;
+            } else if (kVolumes[i] != Volume::aabb && kVolumes[j] != Volume::aabb) {
+                ASSERT_EQ(counters.volume_tests, of_boxes.volume_tests);
             }
             meet += truth.pairs.empty() ? 0 : 1;
             ++rounds;
         }
     EXPECT_GT(meet, rounds / 5);
     EXPECT_LT(meet, rounds * 4 / 5);
+    EXPECT_EQ(swept, 20);
+    EXPECT_GT(different, 18); // swept spheres were really used
 }
 
 TEST(RigidVolumes, OneTriangleAndDegenerateModels) {
@@ -176,7 +203,7 @@ TEST(RigidVolumes, OneTriangleAndDegenerateModels) {
                     const Transform world_a = any_placement(random, i, {}),
                                     world_b = i == 1 ? world_a
                                                      : any_placement(random, i, random.in_cube(1));
-                    const Truth truth(mesh_a, world_a, mesh_b, world_b);
+                    const PairTruth truth(mesh_a, world_a, mesh_b, world_b);
                     expect_truth(truth, a, world_a, b, world_b);
                     ASSERT_FALSE(HasFailure())
                         << "volume " << int(volume) << ", " << i << ": " << mesh_a.triangles.size()
@@ -198,7 +225,7 @@ TEST(RigidVolumes, FlattenedModelsKeepTheirKind) {
         const Model a(mesh, {volume}), b(mesh, {volume});
         for (int i = 0; i < 4; ++i) {
             const Transform world = any_placement(random, 0, {0.5, 0, i % 2 == 0 ? 0.2 : 1.5});
-            const Truth truth(mesh, flat, mesh, world);
+            const PairTruth truth(mesh, flat, mesh, world);
             expect_truth(truth, a, flat, b, world);
             meet += truth.pairs.empty() ? 0 : 1;
         }
@@ -295,9 +322,9 @@ TEST(RigidVolumes, BytesAreTheSumOfBoxesAndVolumes) {
     const Model boxes(mesh);
     const std::size_t lanes = boxes.data().tree().nodes.size() * Node::kWidth * sizeof(float);
     const std::vector<std::pair<Volume, std::size_t>> floats{
-        {Volume::automatic, 0}, {Volume::sphere, 4},  {Volume::kdop14, 14},
-        {Volume::kdop18, 18},   {Volume::kdop26, 26}, {Volume::obb, 15},
-        {Volume::pss, 4},       {Volume::lss, 8},     {Volume::rss, 12}};
+        {Volume::automatic, 0}, {Volume::sphere, 4}, {Volume::kdop14, 14}, {Volume::kdop18, 18},
+        {Volume::kdop26, 26},   {Volume::obb, 15},   {Volume::pss, 4},     {Volume::lss, 8},
+        {Volume::rss, 12},      {Volume::ssv, 12}};
     EXPECT_GT(lanes, 0U);
     for (const auto& [volume, count] : floats)
         EXPECT_EQ(Model(mesh, {volume}).bytes(), boxes.bytes() + count * lanes) << int(volume);

@@ -7,6 +7,7 @@
 #include "geometry/ray_triangle_intersect.h"
 #include "geometry/sphere_triangle_intersect.h"
 #include "rigid/model/solid.h"
+#include "tests/support/infinity.h"
 #include "tests/support/oracle/brute_force.h"
 #include "tests/support/oracle/rational_clip.h"
 #include "tests/support/random.h"
@@ -18,16 +19,14 @@
 namespace abut::test {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-enum class Placement { rigid, affine, uneven, far, flattened, on_grid, tiny, huge };
+enum class PlacementKind { rigid, affine, uneven, far, flattened, on_grid, tiny, huge };
 
 /// Approximate size of the placed model.
-double scale_of(Placement kind) {
-    return kind == Placement::tiny ? 1e-6 : kind == Placement::huge ? 1e6 : 1;
+double scale_of(PlacementKind kind) {
+    return kind == PlacementKind::tiny ? 1e-6 : kind == PlacementKind::huge ? 1e6 : 1;
 }
 
-Mesh make_mesh(Random& random, int kind) {
+Mesh make_queried_mesh(Random& random, int kind) {
     switch (kind) {
     case 0:
         return torus_mesh(1, 0.35, 12, 7);
@@ -46,22 +45,22 @@ Mesh make_mesh(Random& random, int kind) {
     }
 }
 
-Transform place(Random& random, Placement kind) {
+Transform place(Random& random, PlacementKind kind) {
     const double mirror = random.chance(0.5) ? -1 : 1;
     switch (kind) {
-    case Placement::on_grid: // a quarter turn
+    case PlacementKind::on_grid: // a quarter turn
         return Transform({0, 1, 0, -1, 0, 0, 0, 0, 1, 2, -1, 0.5});
-    case Placement::affine:
+    case PlacementKind::affine:
         return compose(random.pose(1),
                        Transform({1.3 * mirror, 0.4, 0, -0.3, 0.8, 0, 0, 0.5, 1.2, 0, 0, 0}));
-    case Placement::uneven:
+    case PlacementKind::uneven:
         return compose(random.pose(1), compose(scaling(1, 1e-4, 1), random.pose(0)));
-    case Placement::flattened:
+    case PlacementKind::flattened:
         return compose(random.pose(1), scaling(1, mirror < 0 ? 1 : 0, 0));
-    case Placement::far:
+    case PlacementKind::far:
         return compose(translation(1e5, -2e5, 3e5), random.pose(0));
-    case Placement::tiny:
-    case Placement::huge:
+    case PlacementKind::tiny:
+    case PlacementKind::huge:
         return compose(scaling(scale_of(kind), scale_of(kind), scale_of(kind)), random.pose(1));
     default:
         return random.pose(1);
@@ -69,9 +68,9 @@ Transform place(Random& random, Placement kind) {
 }
 
 /// A placed model, and random shapes around it.
-struct Scene {
-    Scene(Random& r, Placement kind)
-        : random(r), model(make_mesh(r, r.integer(0, 3))), world(place(r, kind)),
+struct QueryScene {
+    QueryScene(Random& r, PlacementKind kind)
+        : random(r), model(make_queried_mesh(r, r.integer(0, 3))), world(place(r, kind)),
           triangles(placed_triangles(model.mesh(), world)), scale(scale_of(kind)) {
         for (const PlacedTriangle& t : triangles)
             for (const Vec3& p : t.corners)
@@ -120,17 +119,18 @@ struct Scene {
     Box3 box;
 };
 
-class ShapeQueries : public testing::TestWithParam<Placement> {
+class ShapeQueries : public testing::TestWithParam<PlacementKind> {
 protected:
     static constexpr int kScenes = 25, kShapes = 24;
     Random random_{2100 + static_cast<std::uint64_t>(GetParam())};
 };
 INSTANTIATE_TEST_SUITE_P(Placements, ShapeQueries,
-                         testing::Values(Placement::rigid, Placement::affine, Placement::uneven,
-                                         Placement::far, Placement::flattened, Placement::on_grid,
-                                         Placement::tiny, Placement::huge));
+                         testing::Values(PlacementKind::rigid, PlacementKind::affine,
+                                         PlacementKind::uneven, PlacementKind::far,
+                                         PlacementKind::flattened, PlacementKind::on_grid,
+                                         PlacementKind::tiny, PlacementKind::huge));
 
-double roundings(const Scene& s, const Vec3& p) {
+double roundings(const QueryScene& s, const Vec3& p) {
     return 64 * 0x1p-53 *
            (std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + length(s.box.lower) +
             length(s.box.upper));
@@ -140,7 +140,7 @@ TEST_P(ShapeQueries, NearestEqualsBruteForce) {
     int on = 0, cases = 0;
     std::array<int, 3> features{};
     for (int k = 0; k < kScenes; ++k) {
-        Scene s(random_, GetParam());
+        QueryScene s(random_, GetParam());
         for (int i = 0; i < kShapes; ++i, ++cases) {
             const Vec3 p = s.point();
             double expected_sq = HUGE_VAL;
@@ -195,7 +195,7 @@ TEST_P(ShapeQueries, NearestEqualsBruteForce) {
 TEST_P(ShapeQueries, RaysEqualBruteForce) {
     int hits = 0, cases = 0;
     for (int k = 0; k < kScenes; ++k) {
-        Scene s(random_, GetParam());
+        QueryScene s(random_, GetParam());
         for (int i = 0; i < kShapes; ++i, ++cases) {
             Ray ray{s.point(), {}};
             const Triangle t = s.corners();
@@ -250,14 +250,14 @@ TEST_P(ShapeQueries, RaysEqualBruteForce) {
 /// All four kinds of overlap, often with the smallest shape that meets, or a slightly smaller one.
 TEST_P(ShapeQueries, OverlapsEqualBruteForce) {
     int meet = 0, cases = 0;
-    const auto check = [&](const Scene& s, const auto& shape, const auto& meets) {
+    const auto check = [&](const QueryScene& s, const auto& shape, const auto& meets) {
         const std::vector<std::uint32_t> expected = s.brute(meets);
         EXPECT_EQ(overlapping_triangles(s.model, s.world, shape), expected);
         EXPECT_EQ(overlaps(s.model, s.world, shape), !expected.empty());
         ++cases, meet += expected.empty() ? 0 : 1;
     };
     for (int k = 0; k < kScenes; ++k) {
-        Scene s(random_, GetParam());
+        QueryScene s(random_, GetParam());
         for (int i = 0; i < kShapes; ++i) {
             const Vec3 p = s.point(), q = s.point();
             const double distance = nearest(s.model, s.world, p).distance;
@@ -327,6 +327,40 @@ TEST(OrientedBoxes, EqualClippingByRationals) {
     }
     EXPECT_GT(meet, cases * 2 / 10);
     EXPECT_LT(meet, cases * 95 / 100);
+}
+
+/// A query of a model with one triangle skips nothing. So the whole mesh must give the same triangles,
+/// also for boxes so thin and so far from the origin that the normals of their faces are mostly
+/// rounding.
+TEST(OrientedBoxes, ThinAndFarEqualOneTriangleAtATime) {
+    Random random(2122);
+    int meet = 0, cases = 0;
+    for (int k = 0; k < 24; ++k) {
+        const double away = std::pow(10.0, random.uniform(0, 9));
+        const Vec3 centre = away * random.in_cube();
+        Mesh mesh = soup_mesh(random, 60, 1, 0.5);
+        for (Vec3& p : mesh.positions)
+            p = p + centre;
+        const Model model(mesh);
+        std::vector<Model> alone;
+        for (const auto& t : mesh.triangles)
+            alone.emplace_back(Mesh{
+                {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]}, {{0, 1, 2}}});
+        for (int i = 0; i < 12; ++i) {
+            const auto half = [&] { return std::pow(10.0, random.uniform(-12, 0)); };
+            const Vec3 h{half(), half(), random.uniform(0.1, 1)};
+            Pose pose = random.pose(0);
+            pose.translation = centre + random.in_cube(0.5);
+            const OrientedBox box{{-1 * h, h}, pose};
+            std::vector<std::uint32_t> expected;
+            for (std::uint32_t j = 0; j < alone.size(); ++j)
+                if (overlaps(alone[j], Pose{}, box))
+                    expected.push_back(j);
+            ASSERT_EQ(overlapping_triangles(model, Pose{}, box), expected) << k << ' ' << i;
+            ++cases, meet += expected.empty() ? 0 : 1;
+        }
+    }
+    EXPECT_GT(meet, cases * 2 / 10);
 }
 
 /// Every ray from inside a closed surface meets it, also through vertices and edges.

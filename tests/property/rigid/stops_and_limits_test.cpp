@@ -5,6 +5,7 @@
 #include "core/stop.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "rigid/pair/placed_pair.h"
+#include "tests/support/infinity.h"
 #include "tests/support/random.h"
 #include "tests/support/shapes.h"
 
@@ -21,8 +22,6 @@
 
 namespace abut::test {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool is_interrupted(const std::function<void()>& query) {
     try {

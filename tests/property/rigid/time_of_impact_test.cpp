@@ -4,6 +4,7 @@
 #include <abut/error.h>
 #include <abut/motion.h>
 
+#include "tests/support/infinity.h"
 #include "tests/support/oracle/brute_force.h"
 #include "tests/support/shapes.h"
 
@@ -13,10 +14,9 @@
 namespace abut::test {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kKinds = 7;
 
-Mesh make_mesh(Random& random, int kind) {
+Mesh make_moving_mesh(Random& random, int kind) {
     switch (kind) {
     case 0:
         return box_mesh({-0.5, -0.4, -0.3}, {0.5, 0.4, 0.3});
@@ -76,7 +76,7 @@ Motion make_other_motion(Random& random) {
             random.uniform(0, 2) * random.direction()};
 }
 
-struct Case {
+struct MotionCase {
     Model a, b;
     Motion motion_a, motion_b;
 
@@ -87,8 +87,9 @@ struct Case {
     }
 };
 
-Case make_case(Random& random, int i) {
-    const Mesh a = make_mesh(random, i % kKinds), b = make_mesh(random, i / kKinds % kKinds);
+MotionCase make_case(Random& random, int i) {
+    const Mesh a = make_moving_mesh(random, i % kKinds),
+               b = make_moving_mesh(random, i / kKinds % kKinds);
     const Motion motion_a = make_motion(random);
     return {Model(a), Model(b), motion_a, make_other_motion(random)};
 }
@@ -111,7 +112,7 @@ struct FirstContact {
 
 class Subdivision {
 public:
-    explicit Subdivision(const Case& c)
+    explicit Subdivision(const MotionCase& c)
         : case_(c), speed_(speed_of(c.a, c.motion_a) + speed_of(c.b, c.motion_b)) {}
 
     FirstContact run() {
@@ -140,13 +141,13 @@ private:
         search(middle, end);
     }
 
-    const Case& case_;
+    const MotionCase& case_;
     double speed_;
     FirstContact found_;
 };
 
 /// Checks one motion. Returns whether the models meet.
-bool check(const Case& c, int& undecided) {
+bool check(const MotionCase& c, int& undecided) {
     const double tolerance = 1e-5;
     const Impact impact =
         time_of_impact(c.a, c.motion_a, c.b, c.motion_b, {.absolute_error = tolerance});
@@ -249,7 +250,7 @@ TEST(Batch, EqualsSingleQueries) {
 
 TEST(Batch, TimesOfImpactEqualSingleQueries) {
     Random random(2102);
-    const Model a(make_mesh(random, 4)), b(make_mesh(random, 5));
+    const Model a(make_moving_mesh(random, 4)), b(make_moving_mesh(random, 5));
     std::vector<MotionPair> motions;
     for (int i = 0; i < 200; ++i) {
         const Motion motion_a = make_motion(random);

@@ -1,16 +1,15 @@
 #include <abut/error.h>
 #include <abut/rigid.h>
 
+#include "tests/support/infinity.h"
 #include "tests/support/shapes.h"
+#include "tests/unit/rigid/unit_box.h"
 
 #include <gtest/gtest.h>
 #include <limits>
 
 namespace abut::test {
 namespace {
-
-const Model kBox(box_mesh({0, 0, 0}, {1, 1, 1}));
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(Rigid, BoxesByHand) {
     const Gap gap = distance(kBox, Pose{}, kBox, Pose{{4, 5, 0}, {1, 0, 0, 0}});

@@ -73,7 +73,7 @@ TEST(Interpenetrate, BoxesThatOnlyTouch) {
     const auto touches = [&](const Mesh& other) {
         for (const Mesh& m : {other, reversed(other)}) {
             const Body b(m);
-            const Outcome one = meeting(box, b), two = meeting(b, box);
+            const Meeting one = meeting(box, b), two = meeting(b, box);
             EXPECT_FALSE(one.contacts.empty());
             EXPECT_EQ(one.contacts.size(), two.contacts.size());
             EXPECT_FALSE(one.go_in);
@@ -97,7 +97,7 @@ TEST(Interpenetrate, BoxesThatGoIn) {
         double result = 0;
         for (const Mesh& m : {other, reversed(other)}) {
             const Body b(m);
-            const Outcome one = meeting(box, b), two = meeting(b, box);
+            const Meeting one = meeting(box, b), two = meeting(b, box);
             EXPECT_TRUE(one.go_in);
             EXPECT_TRUE(two.go_in);
             EXPECT_NEAR(one.depth.depth, two.depth.depth, 0.011 * one.depth.depth);
@@ -129,7 +129,7 @@ TEST(Interpenetrate, TheSameBoxTwice) {
 TEST(Interpenetrate, PipesLaidIntoEachOther) {
     const Body pipe(prism_mesh(0, 3, 0.5, 24));
     const Body next(prism_mesh(2.9, 6, 0.5, 24)), flush(prism_mesh(3, 6, 0.5, 24));
-    const Outcome in = meeting(pipe, next);
+    const Meeting in = meeting(pipe, next);
     for (const Contact& c : in.contacts)
         EXPECT_EQ(c.kind, TriangleContact::touch); // no triangle crosses another
     EXPECT_TRUE(in.go_in);
@@ -181,7 +181,7 @@ TEST(Interpenetrate, OpenSheets) {
 TEST(PenetrationDepth, SphereInSphere) {
     for (const double apart : {1.9, 1.5, 1.1}) {
         const Body a(sphere_mesh(1, 64, 32)), b(sphere_mesh(1, 64, 32), translation(apart, 0, 0));
-        const Outcome m = meeting(a, b);
+        const Meeting m = meeting(a, b);
         ASSERT_TRUE(m.go_in);
         // The search allows 1 %. The chords of 64 sides lie up to 0.0024 inside the sphere, on both
         // sides.
@@ -197,7 +197,7 @@ TEST(PenetrationDepth, TheThresholdIsDecided) {
     for (const double threshold : {0.005, 0.0099, 0.0101, 0.02}) {
         DepthSearch options;
         options.threshold = threshold;
-        const Outcome m = meeting(a, b, options);
+        const Meeting m = meeting(a, b, options);
         ASSERT_TRUE(m.go_in);
         EXPECT_EQ(m.depth.at_most > threshold, threshold < 0.01) << threshold;
     }

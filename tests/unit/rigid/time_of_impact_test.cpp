@@ -3,7 +3,9 @@
 #include <abut/error.h>
 #include <abut/motion.h>
 
+#include "tests/support/infinity.h"
 #include "tests/support/shapes.h"
+#include "tests/unit/rigid/unit_box.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -14,8 +16,6 @@ namespace abut::test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-const Model kBox(box_mesh({0, 0, 0}, {1, 1, 1}));
 const Model kPlate(Mesh{{{0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1}}, {{0, 1, 2}, {0, 2, 3}}});
 
 Pose at_point(double x, double y, double z) {
