@@ -1,5 +1,5 @@
+#include "world/broad_phase/loose_search.h"
 #include "world/broad_phase/pair_search.h"
-#include "world/broad_phase/sweep_and_prune.h"
 
 #include <algorithm>
 
@@ -8,14 +8,14 @@ namespace abut {
 namespace {
 
 /// Uses the tree search with hubs, which is good in all cases. For small worlds in slow motion it
-/// uses three sorted axes, on which almost nothing changes.
+/// uses loose boxes, whose pairs seldom change.
 ///
-/// How many ends change places is known only once the axes are sorted. A try therefore has a limit
-/// at which it is given up. Each failed try doubles the number of steps before the next one.
+/// How long loose boxes last is known only once boxes leave them. Each failed try doubles the number
+/// of steps before the next one.
 class AutomaticSearch final : public PairSearch {
 public:
     explicit AutomaticSearch(const PairFilter& filter)
-        : tree_(make_hub_search(make_tree_search(filter), filter)), axes_(filter) {}
+        : tree_(make_hub_search(make_tree_search(filter), filter)), loose_(filter) {}
 
     void restart(std::span<const Box3> boxes, PairList& list) override {
         stay_with_tree();
@@ -28,9 +28,10 @@ public:
             update_few(step, list);
             return;
         }
-        const std::size_t boxes = step.boxes.size(), pairs = list.size();
-        if (on_axes_ && axes_.try_update(step, list, most_moves(boxes, pairs))) {
-            pause_ = kShortestPause;
+        if (is_loose_ && loose_.try_update(step, list)) {
+            // Boxes that all go elsewhere every few steps must not begin anew each time.
+            if (++loose_steps_ >= kPaidOff)
+                pause_ = kShortestPause;
             tree_is_current_ = false;
             return;
         }
@@ -38,33 +39,28 @@ public:
             restart(step.boxes, list);
             return;
         }
-        if (on_axes_)
+        if (is_loose_)
             stay_with_tree();
         tree_->update(step, list);
-        if (boxes <= kMostBoxes && --left_ == 0) {
-            axes_.sort_axes(step.boxes);
-            on_axes_ = true;
+        if (step.boxes.size() <= kMostBoxes && --left_ == 0) {
+            loose_.begin(step.boxes);
+            is_loose_ = true;
+            loose_steps_ = 0;
         }
     }
 
 private:
-    // Limits at which both methods take about the same time. The tree finds every pair anew in each
-    // step, which costs about as much as one change of places. Half of the pairs beyond the usual
-    // number for each box are counted.
-    static constexpr std::size_t kMostBoxes = 4096;
-    static constexpr std::size_t kMovesOfBox = 2;
-    static constexpr std::size_t kManyPairs = 8;
+    /// Larger worlds are left to the tree, which several threads search.
+    static constexpr std::size_t kMostBoxes = 1 << 14;
     static constexpr std::size_t kShortestPause = 4, kLongestPause = 64;
+    /// Steps with loose boxes that are worth beginning with them.
+    static constexpr std::size_t kPaidOff = 16;
 
-    static std::size_t most_moves(std::size_t boxes, std::size_t pairs) {
-        return kMovesOfBox * boxes + (pairs - std::min(pairs, kManyPairs * boxes)) / 2;
-    }
-
-    /// The axes look at all ends; the tree looks only at the boxes that have changed.
+    /// Loose boxes are tested in all pairs; the tree looks only at the boxes that have changed.
     void update_few(const BoxStep& step, PairList& list) {
-        if (on_axes_)
-            left_ = pause_; // so that steps that change by turns do not sort the axes each time
-        on_axes_ = false;
+        if (is_loose_)
+            left_ = pause_; // so that steps that change by turns do not begin anew each time
+        is_loose_ = false;
         left_ = std::max<std::size_t>(left_, 1);
         if (tree_is_current_)
             tree_->update(step, list);
@@ -74,14 +70,15 @@ private:
     }
 
     void stay_with_tree() {
-        on_axes_ = false;
+        is_loose_ = false;
         pause_ = std::min(2 * pause_, kLongestPause);
         left_ = pause_;
     }
 
     std::unique_ptr<PairSearch> tree_;
-    SweepAndPrune axes_;
-    bool on_axes_ = false;
+    LooseSearch loose_;
+    bool is_loose_ = false;
+    std::size_t loose_steps_ = 0;        ///< since loose boxes were begun with
     bool tree_is_current_ = true;        ///< up to date with the last step
     std::size_t pause_ = kShortestPause; ///< steps with the tree after a failed try
     std::size_t left_ = kShortestPause;  ///< steps left until the next try

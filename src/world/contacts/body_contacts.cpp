@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <memory>
 #include <optional>
 #include <variant>
 
@@ -133,16 +135,36 @@ bool solid_contact(const PlacedBody& a, const PlacedBody& b, double margin,
                                margin, manifold);
 }
 
+/// As append_surface_contacts, if both bodies have triangles. The result depends on nothing but the
+/// bodies' placements and the margin, so that it may be kept.
+void append_kept_contacts(const BodiesInContact& bodies, double margin, PairWarmStart& warm_start,
+                          std::vector<ContactManifold>& manifolds) {
+    std::unique_ptr<RestingContacts>& kept = warm_start.resting;
+    if (kept && kept->placements == bodies.placements && kept->margin == margin) {
+        manifolds.insert(manifolds.end(), kept->manifolds.begin(), kept->manifolds.end());
+        return;
+    }
+    kept.reset();
+    const auto triangles_a = triangles_of(bodies.a.shape),
+               triangles_b = triangles_of(bodies.b.shape);
+    if (!triangles_a || !triangles_b)
+        return;
+    const auto first = static_cast<std::ptrdiff_t>(manifolds.size());
+    append_surface_contacts(*triangles_a, bodies.a.world_from_body, *triangles_b,
+                            bodies.b.world_from_body, margin, manifolds);
+    if (bodies.at_rest)
+        kept = std::make_unique<RestingContacts>(RestingContacts{
+            bodies.placements, margin, {manifolds.begin() + first, manifolds.end()}});
+}
+
 } // namespace
 
-void append_contacts(const PlacedBody& a, const PlacedBody& b, const BodyPair& ids, double margin,
-                     PairWarmStart& warm_start, std::vector<ContactManifold>& manifolds) {
+void append_contacts(const BodiesInContact& bodies, double margin, PairWarmStart& warm_start,
+                     std::vector<ContactManifold>& manifolds) {
+    const PlacedBody &a = bodies.a, &b = bodies.b;
     const std::size_t first = manifolds.size();
     if (is_surface(a.shape) || is_surface(b.shape)) {
-        const auto triangles_a = triangles_of(a.shape), triangles_b = triangles_of(b.shape);
-        if (triangles_a && triangles_b)
-            append_surface_contacts(*triangles_a, a.world_from_body, *triangles_b,
-                                    b.world_from_body, margin, manifolds);
+        append_kept_contacts(bodies, margin, warm_start, manifolds);
         // The triangles of a box are rounded, so that they may miss what the box touches.
         if (manifolds.size() == first && !(is_surface(a.shape) && is_surface(b.shape)))
             append_one_point(a, b, margin, warm_start, manifolds);
@@ -152,7 +174,7 @@ void append_contacts(const PlacedBody& a, const PlacedBody& b, const BodyPair& i
         manifolds.pop_back();
     }
     for (std::size_t i = first; i < manifolds.size(); ++i)
-        manifolds[i].a = ids.a, manifolds[i].b = ids.b;
+        manifolds[i].a = bodies.ids.a, manifolds[i].b = bodies.ids.b;
 }
 
 } // namespace abut

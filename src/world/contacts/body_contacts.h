@@ -8,8 +8,17 @@
 
 namespace abut {
 
-/// Appends the contact manifolds of two bodies that are at most `margin` apart.
-void append_contacts(const PlacedBody& a, const PlacedBody& b, const BodyPair& ids, double margin,
-                     PairWarmStart& warm_start, std::vector<ContactManifold>& manifolds);
+/// Two bodies of a world.
+struct BodiesInContact { // NOLINT(cppcoreguidelines-pro-type-member-init): has references
+    PlacedBody a, b;
+    BodyPair ids;
+    PlacementPair placements;
+    bool at_rest = false; ///< neither body has moved since the last query of the world's contacts
+};
+
+/// Appends the contact manifolds of two bodies that are at most `margin` apart. The manifolds of
+/// two surfaces at rest are kept in the warm start, and appended again while both stay.
+void append_contacts(const BodiesInContact& bodies, double margin, PairWarmStart& warm_start,
+                     std::vector<ContactManifold>& manifolds);
 
 } // namespace abut

@@ -5,6 +5,8 @@
 #include "world/broad_phase/pair_changes.h"
 #include "world/narrow_phase/world_data.h"
 
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace abut {
@@ -22,6 +24,10 @@ public:
     /// Tells that options or filter of the bodies have changed.
     void forget() { broad_phase_.forget(); }
 
+    /// Sets the latest placement that a query of contacts has seen. Returns that of the query before.
+    std::uint64_t exchange_last_placement(std::uint64_t placement) {
+        return std::exchange(last_placement_, placement);
+    }
     [[nodiscard]] const std::vector<IndexPair>& pairs() const { return broad_phase_.pairs(); }
     [[nodiscard]] std::vector<PairWarmStart>& warm_starts() { return warm_starts_; }
 
@@ -32,6 +38,7 @@ private:
     std::vector<std::uint32_t> generations_;
     std::vector<std::uint32_t> changed_;
     std::vector<PairWarmStart> warm_starts_;
+    std::uint64_t last_placement_ = 0;
     PairChanges changes_; ///< empty between updates
 };
 

@@ -72,6 +72,10 @@ bool has_no_extent(const RoundedBox& box) {
     return box.half[0] == 0 && box.half[1] == 0 && box.half[2] == 0;
 }
 
+bool is_segment(const RoundedBox& box) {
+    return std::count(box.half.begin(), box.half.end(), 0.0) == 2;
+}
+
 /// The gap of a box and a ball, whose centre is b's. The normal points to the ball.
 SolidGap ball_gap(const RoundedBox& box, const RoundedBox& ball) {
     const Vec3 way = ball.centre - box.centre;
@@ -175,7 +179,8 @@ bool rounded_box_contact(const RoundedBox& a, const RoundedBox& b, double margin
                          ContactManifold& manifold) {
     const ContactLimits limits{margin,
                                0x1p-46 * (length(b.centre - a.centre) + size_of(a) + size_of(b))};
-    if (!has_no_extent(a) && !has_no_extent(b)) {
+    // The distance of two capsules costs less than the axes.
+    if (!has_no_extent(a) && !has_no_extent(b) && !(is_segment(a) && is_segment(b))) {
         bool apart = false;
         if (contact_by_axis(a, b, limits, apart, manifold))
             return true;

@@ -204,6 +204,19 @@ BodyGap measure(const PlacedConvex& a, const PlacedRounded& b, double /*upper_bo
         solid.radius);
 }
 
+/// Whether a part of a surface lies in a box. In: the surface does not meet the faces of the box.
+bool any_component_inside(const PlacedSurface& a, const RoundedBox& box) {
+    const ModelData& data = a.shape.data();
+    const auto& components = data.solid().components;
+    return std::any_of(components.begin(), components.end(), [&](std::uint32_t triangle) {
+        const Vec3 from_centre = data.world_triangle(triangle, a.world)[0] - box.centre;
+        for (std::size_t k = 0; k < 3; ++k)
+            if (!(std::abs(dot(from_centre, box.axis[k])) <= box.half[k]))
+                return false;
+        return true;
+    });
+}
+
 BodyGap measure_point(const PlacedSurface& a, const Vec3& centre, double upper_bound,
                       Depths depths) {
     NearestOptions options;
@@ -240,8 +253,12 @@ BodyGap measure(const PlacedSurface& a, const PlacedRounded& b, double upper_bou
         BodyGap gap = measure_models(a.shape, a.world, faces.surface,
                                      compose(b.world, faces.body_from_surface), upper_bound, depths,
                                      warm_start);
-        // A surface wholly inside the box may be far from its faces, but is in contact.
-        if (gap.distance > 0 && meet(a, b, warm_start))
+        // A surface wholly inside the box may be far from its faces, but is in contact. The faces of
+        // the box are rounded.
+        const bool is_clear = gap.distance > 0x1p-40 * (sum_of_sizes(solid.centre) + solid.half[0] +
+                                                        solid.half[1] + solid.half[2]);
+        if (gap.distance > 0 &&
+            (is_clear ? any_component_inside(a, solid) : meet(a, b, warm_start)))
             gap.distance = 0, gap.normal = {};
         return gap;
     }

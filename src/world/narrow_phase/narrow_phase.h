@@ -1,8 +1,13 @@
 #pragma once
 
+#include <abut/contacts.h>
 #include <abut/rigid.h>
 
 #include "world/narrow_phase/body.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
 
 namespace abut {
 
@@ -12,11 +17,25 @@ struct PlacedBody {
     const Transform& world_from_body;
 };
 
+/// Two bodies and their placements, by numbers that are unique in a world; 0: none.
+struct PlacementPair {
+    std::uint64_t a = 0, b = 0;
+    bool operator==(const PlacementPair&) const = default;
+};
+
+/// The manifolds of two surfaces that have not moved since.
+struct RestingContacts {
+    PlacementPair placements;
+    double margin = 0;
+    std::vector<ContactManifold> manifolds;
+};
+
 /// Data kept from one query of two bodies to the next, for all kinds of shape.
 struct PairWarmStart {
     WarmStart surfaces;
     ConvexWarmStart solids;
     Vec3 direction; ///< from a to b in the table's order; zero: none is known
+    std::unique_ptr<RestingContacts> resting; ///< null while a body moves
 };
 
 /// Whether two bodies share a point.

@@ -2,10 +2,23 @@
 
 #include <abut/error.h>
 
+#include <algorithm>
+#include <bit>
 #include <string>
 #include <utility>
 
 namespace abut {
+
+namespace {
+
+/// Unlike ==, it tells 0 from -0.
+bool has_same_bits(const Transform& a, const Transform& b) {
+    return std::equal(a.m.begin(), a.m.end(), b.m.begin(), [](double x, double y) {
+        return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+    });
+}
+
+} // namespace
 
 WorldData::WorldData(WorldOptions options)
     : options_(std::move(options)),
@@ -58,6 +71,7 @@ BodyId WorldData::add(BodyShape shape, const Pose& pose, const BodyOptions& opti
 void WorldData::remove(BodyId id) {
     Body& gone = changeable(id);
     gone.alive = false;
+    gone.placement = ++last_placement_;
     gone.shape = RoundedBox();
     boxes_[id.index] = Box3();
     removed_.push_back(id.index);
@@ -67,8 +81,13 @@ void WorldData::remove(BodyId id) {
 
 void WorldData::move(BodyId id, const Pose& pose) {
     Body& moved = changeable(id);
-    moved.world_from_body = pose; // may throw, so nothing is changed before
+    const Transform world_from_body = pose; // may throw, so nothing is changed before
     moved.pose = pose;
+    if (has_same_bits(moved.world_from_body, world_from_body)) {
+        set_changed(id.index); // the next query counts as a step; box and placement stay
+        return;
+    }
+    moved.world_from_body = world_from_body;
     fit_box(id.index);
 }
 
@@ -106,7 +125,8 @@ void WorldData::set_changed(std::uint32_t index) {
 }
 
 void WorldData::fit_box(std::uint32_t index) {
-    const Body& body = bodies_[index];
+    Body& body = bodies_[index];
+    body.placement = ++last_placement_;
     boxes_[index] = bounds_of(body.shape, body.own_bounds, body.world_from_body);
     set_changed(index);
 }

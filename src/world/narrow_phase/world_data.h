@@ -21,6 +21,8 @@ struct Body {
     BodyOptions options;
     std::uint32_t generation = 0;
     std::uint32_t shape_version = 0; ///< how often the shape has been refreshed
+    /// A number that no other body and no other placement of this body has had in this world.
+    std::uint64_t placement = 0;
     bool alive = false;
 };
 
@@ -61,6 +63,12 @@ public:
     [[nodiscard]] BodyId id_of(std::uint32_t index) const {
         return {index, bodies_[index].generation};
     }
+    /// Numbers both bodies as they are placed now.
+    [[nodiscard]] PlacementPair placements_of(IndexPair pair) const {
+        return {bodies_[pair.a()].placement, bodies_[pair.b()].placement};
+    }
+    /// The number of the latest placement of any body.
+    [[nodiscard]] std::uint64_t last_placement() const { return last_placement_; }
     [[nodiscard]] BodyPair ids_of(IndexPair pair) const {
         return {id_of(pair.a()), id_of(pair.b())};
     }
@@ -81,6 +89,7 @@ private:
     std::vector<std::uint32_t> removed_, ended_;
     std::vector<std::uint32_t> changed_; ///< changed since the last update, each once
     std::vector<std::uint8_t> is_changed_;
+    std::uint64_t last_placement_ = 0;
     bool refiltered_ = false; ///< whether filters changed since the last update
     std::size_t alive_ = 0;
     BroadPhase broad_phase_;

@@ -84,6 +84,10 @@ double time_from_distance(const RelativeMotion& motion, double distance) {
     return first_root(distance, speed_anyhow(motion), acceleration_anyhow(motion));
 }
 
+double distance_closed(const RelativeMotion& motion, double time) {
+    return time * (speed_anyhow(motion) + 0.5 * time * acceleration_anyhow(motion));
+}
+
 double time_of_balls(const RelativeMotion& motion, const Vec3& between, double size) {
     const double radii = motion.a.reach + motion.b.reach +
                          kScheduleRounding * (size + motion.a.reach + motion.b.reach);

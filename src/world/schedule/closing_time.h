@@ -39,6 +39,9 @@ double time_along(const RelativeMotion& motion, const Vec3& n, double gap);
 /// A time before which two bodies of any shape, `distance` apart now, do not meet.
 double time_from_distance(const RelativeMotion& motion, double distance);
 
+/// The distance that two bodies may close in a time, to rounding.
+double distance_closed(const RelativeMotion& motion, double time);
+
 /// A time before which the balls around the origins that enclose the bodies do not meet. Exact if
 /// there are no further velocities and accelerations.
 ///

@@ -51,6 +51,8 @@ bool keeps_turn(const std::array<double, 9>& then, const Body& body, const Vec3&
                 double most) {
     const auto& now = body.world_from_body.m;
     const bool turns = turn != Vec3{};
+    if (!turns && std::equal(then.begin(), then.end(), now.begin()))
+        return true;
     const Rotation rotation(turn);
     double change_sq = 0;
     for (std::size_t i = 0; i < 9; i += 3) {
@@ -85,6 +87,7 @@ void begin_course(Course& course, const Body& body, double now) {
     course.since = now;
     course.origin = course.seen_origin, course.linear = course.seen_linear;
     course.reach = reach_from(body.shape, body.own_bounds, {});
+    course.placement = body.placement;
     course.generation = body.generation, course.shape_version = body.shape_version;
 }
 
@@ -151,6 +154,12 @@ CourseNow course_at(const Course& course, double now) {
 bool is_prescribed(const CourseNow& course) {
     return course.speed == 0 && course.acceleration_bound == 0 && course.turn.speed == 0 &&
            course.turn.acceleration == 0;
+}
+
+bool is_prescribed(const Course& course) {
+    const SpeedBounds& bounds = course.bounds;
+    return course.speed == 0 && bounds.acceleration_bound == 0 && bounds.angular_speed == 0 &&
+           bounds.angular_acceleration == 0;
 }
 
 RelativeMotion relative_motion(const CourseNow& a, const CourseNow& b) {

@@ -16,7 +16,7 @@ namespace abut {
 namespace {
 
 /// A measurement pays if it saves at least this many tests for contact.
-constexpr double kMeasureWorth = 4;
+constexpr double kMeasureWorth = 8;
 /// Longest pause between two measurements that do not pay, in tests.
 constexpr std::uint8_t kLongestIdle = 127;
 /// Error allowed to the distance of two surfaces.
@@ -180,6 +180,19 @@ public:
         return time_from_distance(pair_.motion, memory_.known.at_least - margin_);
     }
 
+    /// Returns true only if a distance of the surfaces would prove no more than this time to be free.
+    [[nodiscard]] bool surfaces_may_meet_in(double time) const {
+        if (has_curved_shape())
+            return false;
+        const double closed = distance_closed(pair_.motion, time);
+        if (!(closed < kNoCollision))
+            return false;
+        const OffsetSurface a = surface_now(pair_.a.shape), b = surface_now(pair_.b.shape);
+        return within(a.surface, compose(pair_.a.world_from_body, a.body_from_surface), b.surface,
+                      compose(pair_.b.world_from_body, b.body_from_surface),
+                      closed + a.radius + b.radius);
+    }
+
 private:
     /// Of the body and the plane, where one of the two is a half-space.
     [[nodiscard]] double size_of_coordinates() const {
@@ -238,7 +251,10 @@ PairEstimate estimate_surfaces(Estimator& estimator, PairMemory& memory, double 
     // A distance tells surfaces apart by itself, but not a surface inside of a solid.
     if (!estimator.both_surfaces() && estimator.touch())
         return {true, true, 0};
-    const double free = estimator.of_surfaces(kCoarse);
+    // After a distance that did not pay, a third of its cost tells whether the next one may.
+    double free = 0;
+    if (memory.idle_next == 0 || !estimator.surfaces_may_meet_in(kMeasureWorth * step))
+        free = estimator.of_surfaces(kCoarse);
     if (!(free > 0) && estimator.touch())
         return {true, true, 0};
     const bool pays = free >= kMeasureWorth * step;
@@ -265,12 +281,19 @@ PairEstimate estimate(const PairNow& pair, PairMemory& memory, double step,
         memory.touched = result.touch;
         return result;
     }
-    double free = std::max(estimator.of_balls(), estimator.of_boxes());
+    const bool idle = memory.idle > 0;
+    double free =
+        idle ? estimator.of_boxes() : std::max(estimator.of_balls(), estimator.of_boxes());
     if (free > 0)
         return {false, false, free};
-    // A distance that ends soon is used up while another one would not pay.
+    // The surfaces are near: no plane parted them at the last measurement, which did not pay.
+    if (idle) {
+        const PairEstimate result = estimate_surfaces(estimator, memory, step, first_idle);
+        memory.touched = result.touch;
+        return result;
+    }
     free = estimator.of_known_distance();
-    if (free > step || (free > 0 && memory.idle > 0))
+    if (free > step)
         return {false, false, free};
     const bool solids = estimator.both_solid();
     const double of_plane = solids ? estimator.of_solids() : estimator.of_plane();

@@ -57,6 +57,7 @@ void CollisionSchedule::set_speed(std::uint32_t body, const SpeedBounds& bounds)
         return;
     begin_course(course, of, now_);
     course.bounds = bounds, course.speed = 0;
+    course.rests = is_at_rest(course_at(course, now_));
     course.known = known;
 }
 
@@ -70,9 +71,12 @@ std::vector<std::uint32_t> CollisionSchedule::follow_courses() {
     for (std::uint32_t body = 0; body < courses_.size(); ++body) {
         Course& course = courses_[body];
         const Body& at = bodies[body];
+        if (stays(course, at))
+            continue;
         if (course.known && at.alive && course.generation == at.generation &&
             keeps_course(course, at, now_)) {
-            note_place(course, at, now_);
+            if (!is_prescribed(course))
+                note_place(course, at, now_);
             continue; // most bodies
         }
         const bool exists = takes_part(body), existed = abut::takes_part(swept_[body]);

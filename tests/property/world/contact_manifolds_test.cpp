@@ -4,6 +4,7 @@
 #include <abut/progress.h>
 #include <abut/world.h>
 
+#include "tests/property/world/box_of.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 #include "tests/support/shapes.h"
@@ -28,10 +29,6 @@ struct PlacedSolid {
 BodyId add_to(World& world, const PlacedSolid& solid, const BodyOptions& options = {}) {
     return std::visit([&](const auto& shape) { return world.add(shape, solid.pose, options); },
                       solid.shape);
-}
-
-Box3 box_of(double x, double y, double z) {
-    return {{-x, -y, -z}, {x, y, z}};
 }
 
 /// A half side, sometimes of no length.

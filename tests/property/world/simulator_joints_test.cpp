@@ -14,7 +14,7 @@ using simulation::JointKind;
 using simulation::Simulator;
 using simulation::Stage;
 
-constexpr double kStep = 1.0 / 60;
+constexpr double kJointStep = 1.0 / 60;
 const Box3 kBar{{-0.5, -0.1, -0.1}, {0.5, 0.1, 0.1}};
 
 TEST(SimulatorJoints, AChainHangs) {
@@ -24,7 +24,7 @@ TEST(SimulatorJoints, AChainHangs) {
     const double start = simulator.energy();
     double widest = 0;
     for (int step = 0; step < 180; ++step) {
-        simulator.step(kStep);
+        simulator.step(kJointStep);
         for (const simulation::Joint& joint : simulator.joints())
             widest = std::max(widest, joint.gap(simulator.bodies()));
         EXPECT_LE(simulator.energy(), start);
@@ -50,10 +50,10 @@ TEST(SimulatorJoints, APendulumHasItsPeriod) {
     int crossings = 0;
     double last = 0, first_time = 0, last_time = 0;
     for (int step = 0; step < 600; ++step) {
-        simulator.step(kStep);
+        simulator.step(kJointStep);
         const double x = body.position.x;
         if (last > 0 && x <= 0) {
-            last_time = kStep * (step + x / (last - x));
+            last_time = kJointStep * (step + x / (last - x));
             if (crossings++ == 0)
                 first_time = last_time;
         }
@@ -70,7 +70,7 @@ TEST(SimulatorJoints, AHingeKeepsItsAxis) {
     simulator.join(JointKind::hinge, post, door, {{0.5, 0, 0}, {0, 0, 1}});
     simulator.bodies()[door].spin = {0, 0, 3}; // gravity bends the hinge
     for (int step = 0; step < 240; ++step) {
-        simulator.step(kStep);
+        simulator.step(kJointStep);
         EXPECT_LT(simulator.joints()[0].gap(simulator.bodies()), 2e-3);
         EXPECT_LT(simulator.joints()[0].twist(simulator.bodies()), 5e-3);
     }
@@ -85,7 +85,7 @@ TEST(SimulatorJoints, ASliderKeepsItsLine) {
     simulator.bodies()[cart].velocity = {2, 0, 0};
     simulator.bodies()[cart].spin = {1, 1, 1};
     for (int step = 0; step < 120; ++step)
-        simulator.step(kStep);
+        simulator.step(kJointStep);
     const Body& body = simulator.bodies()[cart];
     EXPECT_NEAR(body.velocity.x, 2, 0.1);
     EXPECT_GT(body.position.x, 5);
@@ -97,10 +97,10 @@ TEST(SimulatorJoints, ACrankTurnsWithoutGainingEnergy) {
     Stage stage;
     simulation::add_crank(stage);
     Simulator& simulator = stage.simulator;
-    simulator.step(kStep); // after it, the speeds agree with the joints
+    simulator.step(kJointStep); // after it, the speeds agree with the joints
     const double start = simulator.energy();
     for (int step = 0; step < 300; ++step) {
-        simulator.step(kStep);
+        simulator.step(kJointStep);
         EXPECT_LT(simulator.energy(), 1.01 * start);
         for (const simulation::Joint& joint : simulator.joints())
             EXPECT_LT(joint.gap(simulator.bodies()), 2e-3);
@@ -114,10 +114,10 @@ TEST(SimulatorJoints, JoinedBodiesFallAsleepAndWakeTogether) {
     const auto a = simulator.add(kBar, {{0, 0, 0.1}}), b = simulator.add(kBar, {{1.1, 0, 0.1}});
     simulator.join(JointKind::ball, a, b, {{0.55, 0, 0.1}});
     for (int step = 0; step < 120; ++step)
-        simulator.step(kStep);
+        simulator.step(kJointStep);
     EXPECT_EQ(simulator.awake(), 0U);
     simulator.wake(b);
-    simulator.step(kStep);
+    simulator.step(kJointStep);
     EXPECT_EQ(simulator.awake(), 2U);
 }
 

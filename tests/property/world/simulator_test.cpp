@@ -5,11 +5,16 @@
 #include <abut/progress.h>
 
 #include "simulator/container.h"
+#include "tests/property/world/box_of.h"
+#include "tests/support/paths.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <gtest/gtest.h>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,10 +28,6 @@ using simulation::Stage;
 
 constexpr double kStep = 1.0 / 60;
 const Box3 kFloor{{-20, -20, -1}, {20, 20, 0}};
-
-Box3 box_of(double x, double y, double z) {
-    return {{-x, -y, -z}, {x, y, z}};
-}
 
 Vec3 angular_momentum(const Body& body) {
     const simulation::Matrix r = simulation::rotation_matrix(body.rotation);
@@ -109,6 +110,105 @@ TEST(Simulator, TheMassOfAMeshIsThatOfItsShape) {
     EXPECT_LT(length(rod.inertia * axis), length(rod.inertia * side));
 }
 
+/// Simulates a scene, and expects that no step adds energy after the first tenth of a second.
+void expect_no_growth_of_energy(Stage& stage, int steps, double tolerance) {
+    Simulator& simulator = stage.simulator;
+    double energy = simulator.energy();
+    for (int step = 0; step < steps; ++step) {
+        simulator.step(kStep);
+        if (step >= 6) {
+            EXPECT_LE(simulator.energy(), energy + tolerance) << "step " << step;
+        }
+        energy = simulator.energy();
+    }
+}
+
+TEST(Simulator, EnergyNeverGrowsInAChain) {
+    Stage stage;
+    simulation::add_chain(stage, 20);
+    const double start = stage.simulator.energy();
+    expect_no_growth_of_energy(stage, many(300), 1e-9);
+    EXPECT_LT(stage.simulator.energy(), start);
+    EXPECT_EQ(stage.simulator.awake(), 20U); // it still swings
+}
+
+TEST(Simulator, EnergyNeverGrowsInAHeap) {
+    Stage stage;
+    simulation::fill_container(stage, 40);
+    expect_no_growth_of_energy(stage, many(120), 1e-9);
+}
+
+/// Expects that the upper mesh ends at rest on the lower one.
+void expect_mesh_rests(const simulation::PairOfMeshes& pair, double least_height) {
+    Stage stage;
+    simulation::add_pair(stage, pair);
+    Simulator& simulator = stage.simulator;
+    for (int step = 0; step < 600 && simulator.awake() > 0; ++step)
+        simulator.step(kStep);
+    EXPECT_EQ(simulator.awake(), 0U);
+    EXPECT_GT(simulator.bodies()[2].position.z, least_height);
+    EXPECT_LT(simulator.contacts().deepest(), 1e-3);
+    const auto contacts = simulator.contacts().list();
+    const abut::BodyId lower = simulator.bodies()[1].id, upper = simulator.bodies()[2].id;
+    EXPECT_TRUE(std::any_of(contacts.begin(), contacts.end(), [&](const auto& contact) {
+        return contact.pair.a == lower && contact.pair.b == upper;
+    }));
+}
+
+TEST(Simulator, ABallRestsInTheDentOfADisc) {
+    expect_mesh_rests(simulation::ball_on_disc(), 0.5);
+}
+
+TEST(Simulator, ABunnyRestsOnABunny) {
+    const std::string file = std::string(ABUT_SHARED_DATA) + "/meshes/bunny.off";
+    if (!std::filesystem::exists(file))
+        GTEST_SKIP() << file << " is not there";
+    expect_mesh_rests(simulation::pair_of_bunnies(read_mesh(file)), 1);
+}
+
+TEST(Simulator, RollingResistanceStopsABall) {
+    // A solid ball loses its energy 0.7 m v^2 on the way, to a torque of `rolling` times its weight:
+    // it rolls 0.7 v^2 r / (g rolling).
+    for (const double rolling : {0.002, 0.01}) {
+        Simulator simulator({.sleep = false});
+        simulator.add(kFloor, {}, {.density = 0, .rolling = 0});
+        const double radius = 0.2, speed = 0.5;
+        const auto ball =
+            simulator.add(Sphere{{}, radius}, {{-15, 0, radius}}, {.rolling = rolling});
+        Body& body = simulator.bodies()[ball];
+        body.velocity = {speed, 0, 0}, body.spin = {0, speed / radius, 0};
+        for (int step = 0; step < 1800 && length(body.velocity) > 1e-6; ++step)
+            simulator.step(kStep);
+        EXPECT_NEAR(length(body.velocity), 0, 1e-6);
+        const double way = 0.7 * speed * speed * radius / (9.81 * rolling);
+        EXPECT_NEAR(body.position.x + 15, way, 0.05 * way) << "rolling " << rolling;
+    }
+}
+
+/// A fast body that slides along another, whose surface is bent, is stopped at impacts that the
+/// contacts do not have. It has to get on.
+TEST(Simulator, ABodyThatSlidesAlongAMeshIsNotStuck) {
+    const Model mesh(simulation::bumpy_ball(0.5));
+    std::size_t touched = 0;
+    for (const double height : {0.85, 0.9, 0.95})
+        for (const double speed : {4, 8, 20})
+            for (const double gravity : {0.0, 9.81}) {
+                Simulator simulator({.gravity = {0, 0, -gravity}});
+                simulator.add(mesh, {}, {.density = 0, .friction = 0});
+                const auto moving = simulator.add(mesh, {{-2, 0, height}}, {.friction = 0});
+                Body& body = simulator.bodies()[moving];
+                body.velocity = {speed, 0, 0}, body.spin = {0, 3, 0};
+                for (int step = 0; step < 60; ++step) {
+                    const Vec3 before = body.position;
+                    simulator.step(kStep);
+                    EXPECT_GT(length(body.position - before), 1e-3 * kStep * length(body.velocity))
+                        << "height " << height << " speed " << speed << " step " << step;
+                }
+                touched += length(body.velocity - Vec3{speed, 0, -gravity}) > 0.01 ? 1 : 0;
+            }
+    EXPECT_GT(touched, 12U);
+}
+
 /// A stack settles, falls asleep, and does not move from then on.
 void expect_stack_stands(int high) {
     Stage stage;
@@ -167,7 +267,7 @@ TEST(Simulator, FrictionHoldsABoxUpToItsAngle) {
 }
 
 TEST(Simulator, ABallBouncesToTheSquareOfItsRestitution) {
-    for (const double bounce : {0.0, 0.5, 0.9}) {
+    for (const double bounce : {0.0, 0.5, 0.9, 1.0}) {
         Simulator simulator;
         simulator.add(kFloor, {}, {.density = 0});
         const auto ball = simulator.add(Sphere{{}, 0.2}, {{0, 0, 2.2}}, {.bounce = bounce});
@@ -276,12 +376,15 @@ TEST(Simulator, ThreadsDoNotChangeARun) {
 TEST(Simulator, RefusesWhatIsNoBody) {
     Simulator simulator;
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_THROW(simulator.add(Sphere{{}, 0}, {}), Error); // no volume
+    EXPECT_THROW(simulator.add(Sphere{{}, 0}, {}), Error);     // no volume
+    EXPECT_THROW(simulator.add(Sphere{{}, 1e-60}, {}), Error); // its inertia is 0 to rounding
+    EXPECT_THROW(simulator.add(box_of(1, 1e-60, 1e-60), {}), Error);
     EXPECT_THROW(simulator.add(Box3{{0, 0, 0}, {1, 1, 0}}, {}), Error);
     EXPECT_THROW(simulator.add(Sphere{{}, 1}, {{nan, 0, 0}}), Error);
     EXPECT_THROW(simulator.add(Sphere{{}, 1}, {}, {.density = -1}), Error);
     EXPECT_THROW(simulator.add(Sphere{{}, 1}, {}, {.friction = nan}), Error);
     EXPECT_THROW(simulator.add(Sphere{{}, 1}, {}, {.bounce = 2}), Error);
+    EXPECT_THROW(simulator.add(Sphere{{}, 1}, {}, {.rolling = -1}), Error);
     Mesh open = simulation::surface_of(box_of(1, 1, 1));
     for (auto& triangle : open.triangles)
         std::swap(triangle[0], triangle[1]);
@@ -292,6 +395,25 @@ TEST(Simulator, RefusesWhatIsNoBody) {
     EXPECT_THROW(simulator.join(simulation::JointKind::ball, ball, ball, {}), Error);
     simulator.step(kStep);
     EXPECT_NEAR(simulator.bodies()[ball].velocity.z, -9.81 * kStep, 1e-12);
+}
+
+TEST(Simulator, RefusesSettingsAndNumbersThatMeanNothing) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(Simulator({.gravity = {0, 0, nan}}), Error);
+    EXPECT_THROW(Simulator({.substeps = 0}), Error);
+    EXPECT_THROW(Simulator({.margin = -0.01}), Error);
+    EXPECT_THROW(Simulator({.contact_hertz = nan}), Error);
+    EXPECT_THROW(Simulator({.sleep_speed = HUGE_VAL}), Error);
+    Simulator simulator;
+    const auto a = simulator.add(Sphere{{}, 1}, {}), b = simulator.add(Sphere{{}, 1}, {{3, 0, 0}});
+    const auto ball = simulation::JointKind::ball;
+    EXPECT_THROW(simulator.join(ball, a, b + 1, {}), Error);
+    EXPECT_THROW(simulator.join(ball, a, b, {{nan, 0, 0}}), Error);
+    EXPECT_THROW(simulator.join(ball, a, b, {{}, {0, 0, HUGE_VAL}}), Error);
+    EXPECT_THROW(simulator.wake(b + 1), Error);
+    EXPECT_TRUE(simulator.joints().empty());
+    simulator.join(ball, a, b, {{1.5, 0, 0}});
+    EXPECT_EQ(simulator.joints().size(), 1U);
 }
 
 } // namespace
