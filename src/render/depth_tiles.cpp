@@ -21,6 +21,7 @@ void DepthTiles::read(const RenderTarget& parts, const DrawnCamera& camera,
                       const std::array<float, 3>& depth_to_w, const Vec3& origin) {
     const std::uint32_t width = parts.width(), height = parts.height();
     width_ = width, height_ = height;
+    is_of_this_picture_ = true;
     columns_ = (width + kTile - 1) / kTile, rows_ = (height + kTile - 1) / kTile;
     eye_ = camera.eye - origin;
     right_ = (1 / camera.slope_x) * camera.right, up_ = (1 / camera.slope_y) * camera.up;
@@ -47,14 +48,14 @@ void DepthTiles::read(const RenderTarget& parts, const DrawnCamera& camera,
                  GL_FLOAT, farthest_.data());
 }
 
-bool DepthTiles::hides(const Vec3& lower, const Vec3& upper) const {
+bool DepthTiles::hides(const std::array<float, 3>& lower, const std::array<float, 3>& upper) const {
     double left = HUGE_VAL, right = -HUGE_VAL, bottom = HUGE_VAL, top = -HUGE_VAL,
            nearest = HUGE_VAL;
     for (unsigned corner = 0; corner < 8; ++corner) {
-        const Vec3 d =
-            Vec3{(corner & 1U) != 0 ? upper.x : lower.x, (corner & 2U) != 0 ? upper.y : lower.y,
-                 (corner & 4U) != 0 ? upper.z : lower.z} -
-            eye_;
+        const Vec3 d = Vec3{double{(corner & 1U) != 0 ? upper[0] : lower[0]},
+                            double{(corner & 2U) != 0 ? upper[1] : lower[1]},
+                            double{(corner & 4U) != 0 ? upper[2] : lower[2]}} -
+                       eye_;
         const double w = dot(d, forward_);
         if (!(w > near_))
             return false;
@@ -64,13 +65,15 @@ bool DepthTiles::hides(const Vec3& lower, const Vec3& upper) const {
         bottom = std::min(bottom, y), top = std::max(top, y);
         nearest = std::min(nearest, w);
     }
+    left -= kBorder, right += kBorder, bottom -= kBorder, top += kBorder;
+    if (!is_of_this_picture_ && (left < 0 || bottom < 0 || right > width_ || top > height_))
+        return false;
     const auto tile_of = [](double at, std::uint32_t count) {
         return static_cast<std::size_t>(
-            std::clamp(std::floor(at / kTile), 0.0, static_cast<double>(count - 1)));
+            std::clamp(at / kTile, 0.0, static_cast<double>(count - 1)));
     };
-    const std::size_t x0 = tile_of(left - kBorder, columns_),
-                      x1 = tile_of(right + kBorder, columns_);
-    const std::size_t y0 = tile_of(bottom - kBorder, rows_), y1 = tile_of(top + kBorder, rows_);
+    const std::size_t x0 = tile_of(left, columns_), x1 = tile_of(right, columns_);
+    const std::size_t y0 = tile_of(bottom, rows_), y1 = tile_of(top, rows_);
     const double limit = nearest * (1 - kMargin);
     for (std::size_t y = y0; y <= y1; ++y)
         for (std::size_t x = x0; x <= x1; ++x)

@@ -75,7 +75,7 @@ void ExtraParts::draw(ShaderProgram& program) {
     ViewFrame frame;
     frame.draws = draws_;
     frame.instances = instances_;
-    buffers_.draw(frame, true, program);
+    buffers_.draw_instances(frame, program, {});
 }
 
 } // namespace abut

@@ -168,7 +168,7 @@ std::vector<std::uint64_t> Renderer::visible_samples(std::span<const std::uint32
 
 RenderStatistics Renderer::statistics() const {
     const ChunkBuffers& chunks = data_->chunks;
-    return {chunks.triangles(), chunks.draw_calls(), chunks.hidden_triangles(),
+    return {chunks.triangles(), chunks.draw_calls(), chunks.left_out_triangles(),
             chunks.chunks(),    chunks.bytes(),      chunks.uploaded_bytes()};
 }
 

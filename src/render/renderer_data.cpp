@@ -15,11 +15,8 @@ namespace abut {
 
 namespace {
 
-/// Chunks are drawn in steps up to these eighths of the triangles, the nearest first. Those of a
-/// step are compared with the depth of the steps before.
-constexpr std::array<std::uint64_t, 2> kSteps{2, 8};
-/// One chunk in this number must be hidden.
-constexpr std::uint64_t kWorthwhile = 6;
+/// Hidden triangles are looked for if they are at least one in this number.
+constexpr std::uint64_t kWorthwhile = 8;
 constexpr int kPicturesWithoutTest = 7;
 /// A picture with fewer draws is not worth the test.
 constexpr std::size_t kLeastDraws = 32;
@@ -68,9 +65,9 @@ std::array<float, 3> to_floats(const Colour& colour) {
 } // namespace
 
 RendererData::RendererData(std::size_t parts, const Vec3& origin)
-    : states(parts + ExtraParts::kMost), extra(static_cast<std::uint32_t>(parts), origin),
-      origin_(origin), in_software_(draws_in_software()),
-      reversed_(epoxy_has_gl_extension("GL_ARB_clip_control")) {}
+    : states(parts + ExtraParts::kMost), chunks(draws_in_software()),
+      extra(static_cast<std::uint32_t>(parts), origin), origin_(origin),
+      in_software_(draws_in_software()), reversed_(epoxy_has_gl_extension("GL_ARB_clip_control")) {}
 
 ShaderProgram& RendererData::program(const std::string& name, const std::string& definitions,
                                      const char* vertex, const char* fragment) {
@@ -99,6 +96,8 @@ ShaderProgram& RendererData::geometry(Pass pass, bool instanced) {
         definitions += "#define GROUND\n";
     else if (pass == Pass::ghosts || states.has_flags())
         definitions += "#define FLAGS\n";
+    if (is_quick())
+        definitions += "#define QUICK\n";
     ShaderProgram& used =
         program("geometry", definitions, kGeometryVertexShader, kGeometryFragmentShader);
     used.set_matrix("u_clip_from_world", camera->clip_from_world(origin_, reversed_));
@@ -152,41 +151,49 @@ void RendererData::begin(const Camera& seen_by, const RenderStyle& drawn_in) {
     is_open = true;
 }
 
-void RendererData::draw_both(const ViewFrame& frame, Pass pass, const DepthTiles* behind) {
-    states.bind(kStatesUnit);
+EyePoint RendererData::eye_point() const {
     const Vec3 at = camera->eye - origin_;
     // The corners of the picture are the farthest points of the near plane.
-    const EyePoint eye{{at.x, at.y, at.z},
-                       camera->near * std::sqrt(1 + camera->slope_x * camera->slope_x +
-                                                camera->slope_y * camera->slope_y)};
-    const bool without_backs = style.leave_out_backs && pass == Pass::parts && !is_cut();
-    for (const bool instanced : {false, true})
-        chunks.draw(frame, instanced, geometry(pass, instanced),
-                    {without_backs ? &eye : nullptr, behind});
+    return {{at.x, at.y, at.z},
+            camera->near * std::sqrt(1 + camera->slope_x * camera->slope_x +
+                                     camera->slope_y * camera->slope_y)};
+}
+
+void RendererData::draw_all(const ViewFrame& frame, Pass pass) {
+    states.bind(kStatesUnit);
+    const EyePoint eye = eye_point();
+    const SkippedTriangles left_out{pass == Pass::parts && leaves_out_backs() ? &eye : nullptr,
+                                    nullptr, nullptr};
+    chunks.draw(frame, geometry(pass, false), left_out);
+    chunks.draw_instances(frame, geometry(pass, true), left_out);
 }
 
 void RendererData::draw_in_steps(const ViewFrame& frame) {
-    std::uint64_t triangles = 0, drawn = 0;
-    for (const ChunkDraw& draw : frame.draws)
-        triangles += chunks.triangles_of(draw.chunk);
-    std::size_t begin = 0, end = 0;
-    for (const std::uint64_t eighths : kSteps) {
-        while (end < frame.draws.size() && 8 * drawn < eighths * triangles)
-            drawn += chunks.triangles_of(frame.draws[end++].chunk);
-        if (eighths == 8)
-            end = frame.draws.size();
-        ViewFrame part = frame;
-        part.draws = frame.draws.subspan(begin, end - begin);
-        if (begin > 0) {
-            tiles_.read(targets.parts(), *camera, depth_to_w(), origin_);
-            targets.parts().bind();
-        }
-        draw_both(part, Pass::parts, begin > 0 ? &tiles_ : nullptr);
-        begin = end;
-    }
-    // Where little is hidden, the test is left out for some pictures.
-    const bool pays = kWorthwhile * chunks.hidden_chunks() >= frame.draws.size();
-    tests_left_out_ = pays ? 0 : kPicturesWithoutTest;
+    states.bind(kStatesUnit);
+    const EyePoint eye = eye_point();
+    const Frustum frustum(*camera, camera->near, camera->far, origin_);
+    SkippedTriangles left_out{leaves_out_backs() ? &eye : nullptr, &frustum, nullptr};
+    const bool tests = tests_left_out_-- <= 0;
+    tiles_.begin_picture();
+    if (tests && tiles_.is_read())
+        left_out.behind = &tiles_;
+    hidden_.clear();
+    chunks.draw(frame, geometry(Pass::parts, false), left_out, &hidden_);
+    chunks.draw_instances(frame, geometry(Pass::parts, true), left_out);
+    if (!tests)
+        return;
+    const std::uint64_t outside = chunks.left_out_triangles();
+    tiles_.read(targets.parts(), *camera, depth_to_w(), origin_);
+    targets.parts().bind();
+    left_out.behind = &tiles_;
+    chunks.draw(hidden_, geometry(Pass::parts, false), left_out);
+    // Where little is hidden in two pictures, the test is left out for some. One alone may follow a
+    // jump of the eye.
+    const std::uint64_t are_hidden = chunks.left_out_triangles() - outside;
+    const bool pays = kWorthwhile * are_hidden >= chunks.triangles() + are_hidden;
+    useless_tests_ = pays ? 0 : useless_tests_ + 1;
+    if (useless_tests_ == 2)
+        useless_tests_ = 0, tests_left_out_ = kPicturesWithoutTest;
 }
 
 void RendererData::draw_extra(Pass pass) {
@@ -200,10 +207,10 @@ void RendererData::draw_extra(Pass pass) {
 void RendererData::draw_chunks(const ViewFrame& frame) {
     chunks.update(frame);
     targets.parts().bind();
-    if (in_software_ && frame.draws.size() >= kLeastDraws && tests_left_out_-- <= 0)
+    if (in_software_ && frame.draws.size() >= kLeastDraws)
         draw_in_steps(frame);
     else
-        draw_both(frame, Pass::parts);
+        draw_all(frame, Pass::parts);
     draw_extra(Pass::parts);
 }
 
@@ -235,7 +242,7 @@ void RendererData::draw_ghosts(const ViewFrame& frame) {
     glEnable(GL_BLEND);
     glBlendFunc(GL_ZERO, GL_SRC_COLOR);
     glDepthMask(GL_FALSE);
-    draw_both(frame, Pass::ghosts);
+    draw_all(frame, Pass::ghosts);
     draw_extra(Pass::ghosts);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
@@ -278,6 +285,8 @@ void RendererData::shade() {
     std::string definitions;
     if (style.edges)
         definitions += "#define EDGES\n";
+    if (is_quick())
+        definitions += "#define QUICK\n";
     if (style.edges && style.samples > 1)
         definitions += "#define STILL\n";
     if (style.ambient_occlusion)
@@ -309,6 +318,9 @@ void RendererData::shade() {
     if (style.ground) {
         used.set("u_eye", abut::to_floats(camera->eye - style.ground->middle));
         used.set("u_ground_reach", to_float(style.ground->reach));
+        const Vec3 x = std::abs(style.up.x) < 0.7 ? Vec3{1, 0, 0} - style.up.x * style.up
+                                                  : Vec3{0, 1, 0} - style.up.y * style.up;
+        used.set("u_ground_x", abut::to_floats(normalized_or_zero(x)));
         used.set("u_grid", to_float(std::pow(10, std::floor(std::log10(style.ground->reach / 4)))));
     }
     if (has_ghosts_)

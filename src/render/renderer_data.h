@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace abut {
 
@@ -46,9 +47,16 @@ private:
                            const char* vertex, const char* fragment);
     ShaderProgram& geometry(Pass pass, bool instanced);
     void set_sections(ShaderProgram& program) const;
-    void draw_both(const ViewFrame& frame, Pass pass, const DepthTiles* behind = nullptr);
-    /// Draws the nearest chunks, and then those that these do not hide.
+    /// Draws all chunks of a frame.
+    void draw_all(const ViewFrame& frame, Pass pass);
+    /// Draws what the last picture did not hide, and then what this one does not hide of the rest.
     void draw_in_steps(const ViewFrame& frame);
+    [[nodiscard]] EyePoint eye_point() const;
+    /// Normals have 10 bits an axis then, which occlusion does not know.
+    [[nodiscard]] bool is_quick() const {
+        return style.quick && style.samples == 1 && !style.ambient_occlusion;
+    }
+    [[nodiscard]] bool leaves_out_backs() const { return style.leave_out_backs && !is_cut(); }
     void draw_extra(Pass pass);
     void draw_ground();
     void draw_occlusion();
@@ -67,7 +75,9 @@ private:
     GlVertexArray no_attributes_;
     MarkLayer marks_;
     DepthTiles tiles_;
-    int tests_left_out_ = 0; ///< pictures that are drawn in one step
+    std::vector<HiddenRun> hidden_; ///< while a picture is drawn in steps
+    int tests_left_out_ = 0;        ///< pictures in which nothing hidden is looked for
+    int useless_tests_ = 0;         ///< pictures in a row in which little was hidden
     DistanceLayer distances_;
 };
 

@@ -79,10 +79,10 @@ const ViewFrame& Session::frame(const Camera& camera, const Vec3& velocity, bool
 RenderStyle Session::style(bool still) const {
     RenderStyle style;
     style.up = up();
-    style.edges = with_edges;
+    style.edges = with_edges && (still || pace.with_lines());
     style.ambient_occlusion = with_occlusion && still;
     style.samples = still ? 2 : 1;
-    style.leave_out_backs = !still;
+    style.leave_out_backs = style.quick = !still;
     style.sections = sections;
     style.section_box = section_box;
     style.detail = kDetail;

@@ -114,11 +114,17 @@ void main() {
     if (!gl_FrontFacing)
         part |= 0x40000000u;
 #endif
+#ifdef QUICK
+    uvec3 q = uvec3(ivec3(v_normal * (511.0 * inversesqrt(dot(v_normal, v_normal) + 1e-20)) +
+                          512.5));
+    o_part = uvec2(part, q.x | (q.y << 10) | (q.z << 20));
+#else
     vec3 n = v_normal / (abs(v_normal.x) + abs(v_normal.y) + abs(v_normal.z) + 1e-20);
     vec2 e = n.z >= 0.0 ? n.xy : vec2(n.x >= 0.0 ? 1.0 - abs(n.y) : abs(n.y) - 1.0,
                                       n.y >= 0.0 ? 1.0 - abs(n.x) : abs(n.x) - 1.0);
     uvec2 q = uvec2(e * 32766.0 + 32767.5);
     o_part = uvec2(part, q.x | (q.y << 16));
+#endif
 #endif
 }
 )glsl";

@@ -20,6 +20,7 @@ uniform float u_detail;
 uniform float u_samples;            // along a side of a pixel
 uniform vec3 u_low, u_high;
 uniform vec3 u_eye;                  // from the middle of the ground
+uniform vec3 u_ground_x;             // an axis of its grid
 uniform float u_ground_reach, u_grid;
 uniform int u_occlusion_scale;
 #ifdef DISTANCES
@@ -29,6 +30,15 @@ out vec4 o_colour;
 
 const uint kGround = 0x3fffffffu;
 
+#ifdef QUICK
+vec3 decode_long(uint bits) {
+    return vec3(ivec3(int(bits & 1023u), int((bits >> 10) & 1023u), int(bits >> 20))) - 512.0;
+}
+vec3 decode(uint bits) {
+    vec3 n = decode_long(bits);
+    return n * inversesqrt(dot(n, n) + 1e-9);
+}
+#else
 vec3 decode(uint bits) {
     vec2 e = (vec2(bits & 0xffffu, bits >> 16) - 32767.0) / 32766.0;
     vec3 n = vec3(e, 1.0 - abs(e.x) - abs(e.y));
@@ -37,6 +47,7 @@ vec3 decode(uint bits) {
     n.y += n.y >= 0.0 ? -t : t;
     return normalize(n);
 }
+#endif
 
 float w_of(float depth) { return u_depth_to_w.x / (u_depth_to_w.y + u_depth_to_w.z * depth); }
 vec3 ray_of(vec2 at) {
@@ -44,6 +55,19 @@ vec3 ray_of(vec2 at) {
     return u_forward + s.x * u_right + s.y * u_up;
 }
 
+#ifdef QUICK
+// How strong an edge is between this sample and a neighbour, in [0, 1]. Software executes all
+// branches, so there are none. Silhouettes of a part before itself are not found.
+float edge(ivec2 here, ivec2 step, uvec2 part, vec3 n, vec3 at, float w, float fade) {
+    uvec2 other = texelFetch(u_parts, min(here + step, ivec2(u_size) - 1), 0).xy;
+    uint a = (part.x + 1u) & 0x3fffffffu, b = (other.x + 1u) & 0x3fffffffu; // ground 0, sky 1
+    vec3 m = decode_long(other.y);
+    float along = dot(n, m);
+    float crease = clamp((0.81 * dot(m, m) - along * along) * (1.0 / 60000.0), 0.0, 1.0);
+    float border = min(a, b) > 1u ? fade : max(a, b) > 1u ? max(fade, 0.5) : 0.0;
+    return a == b ? 0.7 * fade * fade * crease : border;
+}
+#else
 // How strong an edge is between this sample and a neighbour, in [0, 1].
 float edge(ivec2 here, ivec2 step, uvec2 part, vec3 n, vec3 at, float w, float fade) {
     ivec2 there = clamp(here + step, ivec2(0), ivec2(u_size) - 1);
@@ -68,6 +92,7 @@ float edge(ivec2 here, ivec2 step, uvec2 part, vec3 n, vec3 at, float w, float f
     float off = abs(dot(n, ray_of(vec2(there) + 0.5) * w_there - at));
     return off > 4.0 * u_pixel * max(w, w_there) ? fade : 0.0;
 }
+#endif
 
 #ifdef DISTANCES
 // As abut::distance_colour.
@@ -89,16 +114,14 @@ vec3 background(vec3 ray) {
 // Colour of the ground, with a grid that fades.
 vec3 ground(vec3 ray, float w, vec3 behind) {
     vec3 at = ray * w + u_eye;
-    vec3 x = normalize(abs(u_sky.x) < 0.7 ? vec3(1, 0, 0) - u_sky * u_sky.x
-                                          : vec3(0, 1, 0) - u_sky * u_sky.y);
-    vec2 place = vec2(dot(at, x), dot(at, cross(u_sky, x)));
+    vec2 place = vec2(dot(at, u_ground_x), dot(at, cross(u_sky, u_ground_x)));
     float slope = abs(dot(normalize(ray), u_sky)) + 1e-4;
     vec2 wide = vec2(u_pixel * w / slope);
     vec2 cell = abs(fract(place / u_grid - 0.5) - 0.5) * u_grid;
     vec2 line = 1.0 - smoothstep(vec2(0.0), wide * 1.2, cell);
     float grid = max(line.x, line.y) * clamp(u_grid / (wide.x * 12.0) - 0.3, 0.0, 1.0);
     vec3 colour = mix(vec3(0.795, 0.805, 0.81), vec3(0.62, 0.64, 0.66), 0.55 * grid);
-    float far = length(at - dot(at, u_sky) * u_sky) / u_ground_reach;
+    float far = length(place) / u_ground_reach;
     return mix(colour, behind, smoothstep(0.25, 1.0, far));
 }
 #endif
@@ -168,8 +191,13 @@ void main() {
 #ifdef HIGHLIGHTS
     const ivec2 around[8] = ivec2[8](ivec2(2, 0), ivec2(-2, 0), ivec2(0, 2), ivec2(0, -2),
                                      ivec2(2, 2), ivec2(-2, 2), ivec2(2, -2), ivec2(-2, -2));
+#ifdef QUICK
+    const int count = 4;
+#else
+    const int count = 8;
+#endif
     uint own_bit = part.x >> 31, any = 0u;
-    for (int i = 0; i < 8; ++i)
+    for (int i = 0; i < count; ++i)
         any |= texelFetch(u_parts, clamp(here + around[i], ivec2(0), ivec2(u_size) - 1), 0).x >> 31;
     if (own_bit == 0u && any != 0u)
         colour = vec3(1.0, 0.62, 0.05);
@@ -261,10 +289,10 @@ out float o_farthest;
 
 float w_of(float depth) { return u_depth_to_w.x / (u_depth_to_w.y + u_depth_to_w.z * depth); }
 
-// The farthest w in a tile of 16 x 16 samples.
+// The farthest w in a tile of 8 x 8 samples (DepthTiles::kTile).
 void main() {
-    ivec2 first = ivec2(gl_FragCoord.xy) * 16;
-    ivec2 end = min(first + 16, textureSize(u_depth, 0));
+    ivec2 first = ivec2(gl_FragCoord.xy) * 8;
+    ivec2 end = min(first + 8, textureSize(u_depth, 0));
     float low = 1.0, high = 0.0;
     for (int y = first.y; y < end.y; ++y)
         for (int x = first.x; x < end.x; ++x) {

@@ -17,7 +17,7 @@
 namespace abut::test {
 namespace {
 
-constexpr std::uint32_t kWidth = 320, kHeight = 180;
+constexpr std::uint32_t kLevelWidth = 320, kLevelHeight = 180;
 constexpr int kEyes = 8;
 constexpr int kVisible = 16; ///< of 255: pixels that differ by more count
 
@@ -118,7 +118,7 @@ TEST_F(LevelPictures, AtOnePixelLookLikeFullDetail) {
         camera.eye = {60 * std::cos(yaw), 60 * std::sin(yaw), 4.0 + 2 * i};
         camera.forward = {-camera.eye.x, -camera.eye.y, 3 - camera.eye.z};
         camera.up = {0, 0, 1};
-        camera.width = kWidth, camera.height = kHeight;
+        camera.width = kLevelWidth, camera.height = kLevelHeight;
         const double share = share_of_different(coarse.picture(camera), exact.picture(camera));
         EXPECT_LE(share, 0.005) << "eye " << i;
         triangles += coarse.renderer.statistics().triangles;

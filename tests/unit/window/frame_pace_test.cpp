@@ -23,6 +23,25 @@ TEST(FramePace, FollowsTheMachineSlowly) {
     EXPECT_EQ(pace.triangles(), 500'000U);
 }
 
+TEST(FramePace, LeavesOutLinesOfASlowMachine) {
+    FramePace pace;
+    EXPECT_TRUE(pace.with_lines());
+    for (int i = 0; i < 6; ++i)
+        pace.add_frame(1);
+    EXPECT_GT(pace.triangles(), 250'000U);
+    EXPECT_TRUE(pace.with_lines()); // as long as enough triangles are drawn
+    pace.add_frame(1);
+    EXPECT_LT(pace.triangles(), 250'000U);
+    EXPECT_FALSE(pace.with_lines());
+    for (int i = 0; i < 160; ++i)
+        pace.add_frame(0.01);
+    EXPECT_EQ(pace.triangles(), 500'000U);
+    EXPECT_FALSE(pace.with_lines()); // they do not come and go
+    for (int i = 0; i < 10; ++i)
+        pace.add_frame(0.01);
+    EXPECT_TRUE(pace.with_lines());
+}
+
 /// The median of the frames of a machine, once the pace knows it.
 ///
 /// In          fixed: seconds of a frame without triangles; triangle: seconds of one; slow_every: so
