@@ -3,7 +3,7 @@
 //     abut-simulate SCENE [SECONDS] [--frames FOLDER] [--figures FILE.csv] [--mesh FILE]
 //
 // --frames writes 30 files a second (GLB), which `abut picture` draws. --figures writes the figures
-// of every step. --mesh is the mesh of the scene "bunnies".
+// of every step. --mesh is the bunny of the scene "meshes".
 
 #include <abut/scene.h>
 

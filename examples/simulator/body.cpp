@@ -9,7 +9,7 @@ namespace {
 /// Returns the angular velocity at the end of a step of free rotation, in the body's frame.
 ///
 /// It solves  J (w1 - w0) + h m x J m = 0,  m = (w0 + w1) / 2, by Newton's method. Each iteration
-/// squares the error, so that eight are enough from any start that converges.
+/// squares the error, so that eight are enough if they converge at all.
 Vec3 free_spin(const Matrix& inertia, const Vec3& start, double h) {
     Vec3 end = start;
     for (int i = 0; i < 8; ++i) {
@@ -30,6 +30,11 @@ Vec3 free_spin(const Matrix& inertia, const Vec3& start, double h) {
 Pose current_pose(const Body& body) {
     const Matrix r = rotation_matrix(body.rotation);
     return {body.position - r * body.mass.centre, body.rotation};
+}
+
+Matrix world_inertia(const Body& body) {
+    const Matrix r = rotation_matrix(body.rotation);
+    return r * body.mass.inertia * transposed(r);
 }
 
 void update_inertia(Body& body) {

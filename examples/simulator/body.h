@@ -14,6 +14,9 @@ struct Material {
     double density = 1000; ///< 0: the body is static
     double friction = 0.5; ///< of two bodies: the geometric mean
     double bounce = 0;     ///< restitution, at most 1; of two bodies: the larger one
+    /// Coefficient of rolling resistance, in metres: the arm by which the push of a contact slows
+    /// rolling. It also slows spinning about the normal. Of two bodies: the larger one.
+    double rolling = 0.001;
 };
 
 /// A rigid body. A static body has mass 0, and its inverse mass and inertia are 0 too.
@@ -43,11 +46,15 @@ struct Body {
 
 /// Returns the pose of the shape for the body's position and rotation.
 Pose current_pose(const Body& body);
+/// Returns the inertia about the centre of mass, along the axes of the world.
+Matrix world_inertia(const Body& body);
 /// Sets `inverse_inertia` for the current rotation.
 void update_inertia(Body& body);
 /// Moves and turns the body for a time, as if nothing touches it.
 ///
-/// Accuracy    angular momentum and the energy of the rotation are conserved to rounding.
+/// Accuracy    angular momentum and the energy of the rotation are conserved to rounding, if the
+///             body turns by at most a radian in this time. Beyond it, Newton's method may not
+///             converge, and both may change.
 /// Source      midpoint rule with the Cayley map [Simo, Wong 1991].
 void drift(Body& body, double seconds);
 /// The kinetic energy.

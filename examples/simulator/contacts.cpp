@@ -17,6 +17,11 @@ Softness spring(const Body& a, const Body& b, const Settings& settings, double h
     return Softness::of(hertz, settings.contact_damping, h);
 }
 
+void apply_spin(const Vec3& change, Body& a, Body& b) {
+    a.spin = a.spin - a.inverse_inertia * change;
+    b.spin = b.spin + b.inverse_inertia * change;
+}
+
 } // namespace
 
 void Contacts::set(std::span<const abut::ContactManifold> manifolds, std::span<const Body> bodies,
@@ -40,6 +45,9 @@ void Contacts::add(const abut::ContactManifold& manifold, BodyNumber number_a, B
     contact.a = number_a, contact.b = number_b;
     contact.friction = std::sqrt(a.material.friction * b.material.friction);
     contact.bounce = std::max(a.material.bounce, b.material.bounce);
+    contact.rolling = std::max(a.material.rolling, b.material.rolling);
+    if (contact.rolling > 0 && !(a.is_static() && b.is_static()))
+        contact.roll_inertia = inverse(a.inverse_inertia + b.inverse_inertia);
     contact.first = static_cast<std::uint32_t>(points_.size()), contact.count = manifold.count;
     contacts_.push_back(contact);
 
@@ -57,15 +65,16 @@ void Contacts::add(const abut::ContactManifold& manifold, BodyNumber number_a, B
     }
 }
 
-/// Points that there were in the last step begin with their impulses of then.
+/// Regions and points of the last step begin with the impulses that they had then.
 void Contacts::keep_impulses(std::span<const Contact> old,
                              std::span<const ContactPoint> old_points) {
     auto before = old.begin();
-    for (const Contact& contact : contacts_) {
+    for (Contact& contact : contacts_) {
         while (before != old.end() && is_before(*before, contact))
             ++before;
         if (before == old.end() || is_before(contact, *before))
             continue;
+        contact.roll = before->roll;
         const auto known = old_points.subspan(before->first, before->count);
         for (ContactPoint& point : std::span(points_).subspan(contact.first, contact.count)) {
             const auto same = std::find_if(known.begin(), known.end(), [&](const ContactPoint& p) {
@@ -99,21 +108,25 @@ void Contacts::activate(std::span<const Body> bodies, const Settings& settings, 
 }
 
 void Contacts::apply_known(std::span<Body> bodies) const {
-    for (const Contact& contact : contacts_)
-        if (contact.active)
-            for (const ContactPoint& point : points(contact)) {
-                Body &a = bodies[contact.a], &b = bodies[contact.b];
-                point.push.apply(point.push.impulse, a, b);
-                for (const Row& row : point.drag)
-                    row.apply(row.impulse, a, b);
-            }
-}
-
-void Contacts::solve(std::span<Body> bodies, const Settings& settings, double h, bool springs) {
     for (const Contact& contact : contacts_) {
         if (!contact.active)
             continue;
         Body &a = bodies[contact.a], &b = bodies[contact.b];
+        apply_spin(contact.roll, a, b);
+        for (const ContactPoint& point : points(contact)) {
+            point.push.apply(point.push.impulse, a, b);
+            for (const Row& row : point.drag)
+                row.apply(row.impulse, a, b);
+        }
+    }
+}
+
+void Contacts::solve(std::span<Body> bodies, const Settings& settings, double h, bool springs) {
+    for (Contact& contact : contacts_) {
+        if (!contact.active)
+            continue;
+        Body &a = bodies[contact.a], &b = bodies[contact.b];
+        solve_rolling(contact, a, b);
         solve_friction(contact, a, b);
         const Softness soft = springs ? spring(a, b, settings, h) : Softness::rigid();
         for (ContactPoint& point : std::span(points_).subspan(contact.first, contact.count)) {
@@ -139,12 +152,30 @@ void Contacts::solve_friction(const Contact& contact, Body& a, Body& b) {
         auto& [s, t] = point.drag;
         double new_s = s.impulse - s.mass * s.speed(a, b),
                new_t = t.impulse - t.mass * t.speed(a, b);
-        const double size = std::hypot(new_s, new_t), most = contact.friction * point.push.impulse;
-        if (size > most)
-            new_s *= most / size, new_t *= most / size;
+        const double square = new_s * new_s + new_t * new_t,
+                     most = contact.friction * point.push.impulse;
+        if (square > most * most) {
+            const double scale = most / std::sqrt(square);
+            new_s *= scale, new_t *= scale;
+        }
         s.add_impulse(new_s - s.impulse, a, b);
         t.add_impulse(new_t - t.impulse, a, b);
     }
+}
+
+/// Rolling resistance: the angular impulse is at most `rolling` times the push.
+void Contacts::solve_rolling(Contact& contact, Body& a, Body& b) const {
+    if (contact.rolling == 0)
+        return;
+    double push = 0;
+    for (const ContactPoint& point : points(contact))
+        push += point.push.impulse;
+    Vec3 roll = contact.roll - contact.roll_inertia * (b.spin - a.spin);
+    const double size = length(roll), most = contact.rolling * push;
+    if (size > most)
+        roll = (most / size) * roll;
+    apply_spin(roll - contact.roll, a, b);
+    contact.roll = roll;
 }
 
 void Contacts::bounce(std::span<Body> bodies, const Settings& settings) {

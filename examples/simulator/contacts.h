@@ -26,7 +26,9 @@ struct Contact {
     abut::BodyPair pair;
     std::uint32_t region = 0;
     BodyNumber a = 0, b = 0;
-    double friction = 0, bounce = 0;
+    double friction = 0, bounce = 0, rolling = 0;
+    Matrix roll_inertia = kZeroMatrix;  ///< the angular impulse that changes the relative spin by 1
+    Vec3 roll;                          ///< angular impulse on b, accumulated over the step
     std::uint32_t first = 0, count = 0; ///< its points
     bool active = false;                ///< one of them moves, and they may touch in this step
 };
@@ -63,6 +65,7 @@ private:
              std::span<const Body> bodies);
     void keep_impulses(std::span<const Contact> old, std::span<const ContactPoint> old_points);
     void solve_friction(const Contact& contact, Body& a, Body& b);
+    void solve_rolling(Contact& contact, Body& a, Body& b) const;
 
     std::vector<Contact> contacts_; ///< sorted by pair and region
     std::vector<ContactPoint> points_;

@@ -9,6 +9,7 @@ void Islands::build(std::span<const Body> bodies, const Contacts& contacts,
                     std::span<const Joint> joints, const Settings& settings, double seconds) {
     parent_.resize(bodies.size());
     std::iota(parent_.begin(), parent_.end(), BodyNumber{0});
+    is_held_.assign(bodies.size(), false);
     for (const Contact& contact : contacts.list())
         if (contacts.may_touch(contact, bodies, settings, seconds))
             join(bodies, contact.a, contact.b);
@@ -25,8 +26,10 @@ BodyNumber Islands::root(BodyNumber body) {
 }
 
 void Islands::join(std::span<const Body> bodies, BodyNumber a, BodyNumber b) {
-    if (bodies[a].is_static() || bodies[b].is_static())
+    if (bodies[a].is_static() || bodies[b].is_static()) {
+        is_held_[a] = is_held_[b] = true;
         return;
+    }
     a = root(a), b = root(b);
     parent_[std::max(a, b)] = std::min(a, b);
 }

@@ -20,7 +20,9 @@ Mass mass_of(const abut::Capsule& capsule, double density);
 Mass mass_of(const abut::Box3& box, double density);
 /// Accuracy    exact integrals over tetrahedra, to rounding.
 /// Errors      of this and the next two: Error{bad_argument} if the surface encloses no volume,
-///             for example because it is open or inside out.
+///             for example because it is inside out. Two cases are not recognised: a flat
+///             surface whose volume is positive by rounding, and an open one, whose mass is that of
+///             the tetrahedra between its first vertex and its triangles.
 Mass mass_of(const abut::Mesh& mesh, double density);
 Mass mass_of(const abut::Model& model, double density);
 Mass mass_of(const abut::Convex& convex, double density);

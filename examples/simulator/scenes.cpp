@@ -5,15 +5,11 @@
 #include "simulator/container.h"
 
 #include <memory>
+#include <utility>
 
 namespace simulation {
 
 namespace {
-
-/// Puts the floor below the scene.
-void add_floor(Stage& stage) {
-    stage.add({floor_brick()});
-}
 
 /// Scales a mesh to a size along z of 1, with the middle of its box at the origin.
 abut::Mesh scaled(abut::Mesh mesh) {
@@ -113,11 +109,23 @@ void add_crank(Stage& stage) {
     simulator.bodies()[rod].spin = -1.5 * y;
 }
 
-void add_pair_of_meshes(Stage& stage, const abut::Mesh& mesh) {
-    add_floor(stage);
-    const abut::Model model(scaled(mesh));
-    stage.add(model, {{0, 0, 0.52}});
-    stage.add(model, {{0.05, 0.02, 1.6}});
+PairOfMeshes ball_on_disc() {
+    return {
+        {dented_disc(0.6), bumpy_ball(0.2)}, {Pose{{0, 0, 0.225}}, Pose{{0.05, 0.02, 0.62}}}, {}};
+}
+
+PairOfMeshes pair_of_bunnies(abut::Mesh mesh) {
+    const Pose lower{{0, 0, 0.3403}, {0.9134, 0.0967, 0.0893, -0.3853}},
+        upper{{-0.242, 0.027, 1.4}, {-0.0266, -0.9969, -0.0464, -0.058}};
+    const Material soft{.friction = 0.6, .rolling = 0.005};
+    const abut::Mesh bunny = scaled(std::move(mesh));
+    return {{bunny, bunny}, {lower, upper}, soft};
+}
+
+void add_pair(Stage& stage, const PairOfMeshes& pair) {
+    stage.add({floor_brick(2)});
+    for (std::size_t i = 0; i < 2; ++i)
+        stage.add(abut::Model(pair.meshes[i]), pair.poses[i], pair.material);
 }
 
 void add_bullet(Stage& stage) {
@@ -132,7 +140,7 @@ void add_bullet(Stage& stage) {
 
 const std::vector<std::string>& stage_names() {
     static const std::vector<std::string> names{"stack10", "stack20", "wall",   "chain",
-                                                "crank",   "bunnies", "bullet", "container"};
+                                                "crank",   "meshes",  "bullet", "container"};
     return names;
 }
 
@@ -148,8 +156,8 @@ Stage make_stage(const std::string& name, const Settings& settings, const std::s
         add_chain(stage, 20);
     else if (name == "crank")
         add_crank(stage);
-    else if (name == "bunnies")
-        add_pair_of_meshes(stage, mesh.empty() ? bumpy_ball(0.5) : abut::read_mesh(mesh));
+    else if (name == "meshes")
+        add_pair(stage, mesh.empty() ? ball_on_disc() : pair_of_bunnies(abut::read_mesh(mesh)));
     else if (name == "bullet")
         add_bullet(stage);
     else if (name == "container")

@@ -2,6 +2,7 @@
 
 #include "simulator/surfaces.h"
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -48,12 +49,24 @@ void add_wall(Stage& stage, int wide, int high);
 void add_chain(Stage& stage, int links);
 /// A wheel on a hinge turns a rod, which moves a slider: three hinges and a slider in a loop.
 void add_crank(Stage& stage);
-/// A mesh on a floor, and the same mesh falls on it. Its size along z is about 1 m.
-void add_pair_of_meshes(Stage& stage, const abut::Mesh& mesh);
+/// A mesh that lies on the floor, and another one that falls on it from a few millimetres.
+struct PairOfMeshes {
+    std::array<abut::Mesh, 2> meshes;
+    std::array<Pose, 2> poses;
+    Material material;
+};
+/// A disc with a dent, 1.2 m wide, and a ball with bumps.
+PairOfMeshes ball_on_disc();
+/// Two Stanford bunnies on their sides. Their poses are those at which the upper one stays on the
+/// lower one, for the bunny of 6,966 triangles with z along its width (`bunny.off` of many mesh
+/// libraries). The size of the mesh along z becomes 1 m. Other meshes may fall off.
+PairOfMeshes pair_of_bunnies(abut::Mesh mesh);
+void add_pair(Stage& stage, const PairOfMeshes& pair);
 /// A ball of 5 mm radius at 500 m/s, and three plates of 1 mm, the last of them static.
 void add_bullet(Stage& stage);
 
-/// Makes a scene by its name. `mesh` is a file for "bunnies"; if empty, bumpy balls take part.
+/// Makes a scene by its name. `mesh` is the file of a bunny for "meshes"; if empty, a ball falls on a
+/// disc.
 ///
 /// Errors      abut::Error{bad_argument} if there is no such scene; those of `abut::read_mesh`.
 Stage make_stage(const std::string& name, const Settings& settings, const std::string& mesh = "");

@@ -2,6 +2,8 @@
 
 #include <abut/error.h>
 
+#include <string>
+
 namespace simulation {
 
 using abut::Error;
@@ -11,19 +13,44 @@ Simulator::Simulator(const Settings& settings)
     : settings_(settings), joined_(std::make_shared<std::set<abut::BodyPair>>()),
       world_({.filter = [joined = joined_](abut::BodyId a, abut::BodyId b) {
           return !joined->contains({a, b});
-      }}) {}
+      }}) {
+    check(settings);
+}
+
+void Simulator::check(const Settings& settings) {
+    if (!std::isfinite(length(settings.gravity)))
+        throw Error(ErrorCode::bad_argument, "gravity is not finite");
+    if (settings.substeps < 1)
+        throw Error(ErrorCode::bad_argument, "a step needs at least one sub-step");
+    if (settings.joint_passes < 0)
+        throw Error(ErrorCode::bad_argument, "the number of passes over joints is negative");
+    for (const double value : {settings.margin, settings.contact_hertz, settings.contact_damping,
+                               settings.push_speed, settings.joint_hertz, settings.joint_damping,
+                               settings.bounce_speed, settings.sleep_speed, settings.sleep_after})
+        if (!std::isfinite(value) || value < 0)
+            throw Error(ErrorCode::bad_argument, "a setting is negative or not finite");
+}
 
 void Simulator::check(const Material& material) {
-    for (const double value : {material.density, material.friction, material.bounce})
+    for (const double value :
+         {material.density, material.friction, material.bounce, material.rolling})
         if (!std::isfinite(value) || value < 0)
             throw Error(ErrorCode::bad_argument, "a material's value is negative or not finite");
     if (material.bounce > 1)
         throw Error(ErrorCode::bad_argument, "a material's bounce exceeds 1");
 }
 
+void Simulator::check(BodyNumber body) const {
+    if (body >= bodies_.size())
+        throw Error(ErrorCode::bad_argument, "there is no body " + std::to_string(body));
+}
+
 BodyNumber Simulator::add_body(abut::BodyId id, const Pose& pose, const Mass& mass,
                                const Material& material) {
-    if (material.density > 0 && !(mass.mass > 0 && std::isfinite(mass.mass))) {
+    // The inertia of a tiny or thin body may be 0 to rounding, and then has no inverse.
+    const double determinant = dot(mass.inertia.x, cross(mass.inertia.y, mass.inertia.z));
+    if (material.density > 0 && !(mass.mass > 0 && std::isfinite(mass.mass) && determinant > 0 &&
+                                  std::isfinite(determinant))) {
         world_.remove(id);
         throw Error(ErrorCode::bad_argument, "a body that moves has no volume");
     }
@@ -48,8 +75,11 @@ BodyNumber Simulator::add_body(abut::BodyId id, const Pose& pose, const Mass& ma
 }
 
 void Simulator::join(JointKind kind, BodyNumber a, BodyNumber b, const JointPlace& place) {
-    if (a == b || !(length(place.axis) > 0))
+    check(a), check(b);
+    if (a == b || !(length(place.axis) > 0) || !std::isfinite(length(place.axis)))
         throw Error(ErrorCode::bad_argument, "a joint needs two bodies and an axis");
+    if (!std::isfinite(length(place.point)))
+        throw Error(ErrorCode::bad_argument, "a joint's point is not finite");
     joints_.emplace_back(kind, a, b, place, bodies_);
     joined_->insert(
         {std::min(bodies_[a].id, bodies_[b].id), std::max(bodies_[a].id, bodies_[b].id)});
@@ -57,6 +87,7 @@ void Simulator::join(JointKind kind, BodyNumber a, BodyNumber b, const JointPlac
 }
 
 void Simulator::wake(BodyNumber body) {
+    check(body);
     bodies_[body].asleep = false, bodies_[body].still_for = 0;
 }
 
@@ -69,7 +100,7 @@ double Simulator::energy() const {
     double sum = 0;
     for (const Body& body : bodies_)
         if (!body.is_static())
-            sum += kinetic_energy(body) - body.mass.mass * dot(settings_.gravity, body.position);
+            sum += mechanical_energy(body, settings_.gravity);
     return sum;
 }
 
@@ -82,11 +113,13 @@ void Simulator::step(double seconds) {
         update_inertia(body);
         body.moved = {}, body.turned = {};
     }
+    energy_.remember(bodies_, settings_.gravity);
     find_contacts(seconds);
     for (int i = 0; i < settings_.substeps; ++i)
         substep(seconds / settings_.substeps);
     contacts_.bounce(bodies_, settings_);
-    move_bodies();
+    move_bodies(seconds);
+    energy_.enforce(bodies_, islands_, settings_.gravity);
     islands_.sleep(bodies_, settings_, seconds);
 }
 
@@ -123,110 +156,6 @@ void Simulator::substep(double h) {
     for (int i = 0; i < settings_.joint_passes; ++i)
         each_joint([&](Joint& joint) { joint.solve(bodies_, settings_, h, false); });
     contacts_.solve(bodies_, settings_, h, false);
-}
-
-void Simulator::move_bodies() {
-    stop_at_impacts();
-    for (Body& body : bodies_)
-        if (body.moves()) {
-            body.pose = current_pose(body);
-            world_.move(body.id, body.pose);
-        }
-}
-
-/// Bodies that move far in a step stop where they first meet another. Bodies that move at most half
-/// of the margin are taken to stay where they are, and pairs that touch already are left to the
-/// impulses.
-void Simulator::stop_at_impacts() {
-    constexpr int kRounds = 4; // after them, bodies that still meet do not move at all
-    std::vector<double> share(bodies_.size(), 1);
-    for (int round = 0; shorten_motions(share, round < kRounds); ++round) {
-    }
-    for (BodyNumber i = 0; i < bodies_.size(); ++i)
-        if (share[i] < 1)
-            stop_at(bodies_[i], share[i]);
-}
-
-/// Shortens the motions of fast bodies that meet, to the time of impact or to nothing. Returns
-/// whether there are any. A body that has been stopped may be in the way of others, so that another
-/// round is needed.
-bool Simulator::shorten_motions(std::vector<double>& share, bool to_impact) {
-    std::vector<abut::BodyMotion> motions;
-    std::vector<bool> fast(bodies_.size(), false);
-    for (BodyNumber i = 0; i < bodies_.size(); ++i) {
-        const Body& body = bodies_[i];
-        fast[i] = body.moves() &&
-                  length(body.moved) + body.reach * length(body.turned) > 0.5 * settings_.margin;
-        if (fast[i])
-            motions.push_back({body.id,
-                               {body.pose, body.position - body.moved, share[i] * body.moved,
-                                share[i] * body.turned}});
-    }
-    if (motions.empty())
-        return false;
-    std::vector<double> shorter = share;
-    for (const abut::BodyImpact& each : world_.time_of_impact(motions)) {
-        const auto way = [&](abut::BodyId id, const Vec3& point) {
-            const Body& body = bodies_[number_of_[id.index]];
-            const Vec3 arm = point - (body.position - body.moved);
-            return share[number_of_[id.index]] * (body.moved + cross(body.turned, arm));
-        };
-        // Impulses act on bodies that touch already. They also leave a small error in directions
-        // in which bodies slide or roll, which is no impact.
-        const double time = each.impact.time;
-        const Vec3 closing = way(each.a, each.impact.point_a) - way(each.b, each.impact.point_b);
-        if ((1 - time) * dot(closing, each.impact.normal) < 0.1 * settings_.margin)
-            continue;
-        for (const abut::BodyId id : {each.a, each.b})
-            if (const BodyNumber i = number_of_[id.index]; fast[i])
-                shorter[i] = std::min(shorter[i], to_impact ? time * share[i] : 0);
-    }
-    stop_together(shorter);
-    const bool any = shorter != share;
-    share = std::move(shorter);
-    return any;
-}
-
-/// Joined bodies stop together, and so do bodies that touch, if one of them would go into the other.
-void Simulator::stop_together(std::vector<double>& share) const {
-    bool again = true;
-    const auto stop = [&](BodyNumber a, BodyNumber b) {
-        const double least = std::min(share[a], share[b]);
-        for (const BodyNumber i : {a, b})
-            if (bodies_[i].moves() && share[i] > least)
-                share[i] = least, again = true;
-    };
-    while (again) {
-        again = false;
-        for (const Joint& joint : joints_)
-            stop(joint.a(), joint.b());
-        for (const Contact& contact : contacts_.list()) {
-            const Body &a = bodies_[contact.a], &b = bodies_[contact.b];
-            const double share_a = share[contact.a], share_b = share[contact.b];
-            if (!contact.active || share_a == share_b)
-                continue;
-            for (const ContactPoint& point : contacts_.points(contact)) {
-                const Row& row = point.push;
-                const double gap = point.gap +
-                                   share_b * (dot(row.along, b.moved) + dot(row.turn_b, b.turned)) -
-                                   share_a * (dot(row.along, a.moved) + dot(row.turn_a, a.turned));
-                if (gap < std::min(0.0, point.gap) - 0.1 * settings_.margin)
-                    stop(contact.a, contact.b);
-            }
-        }
-    }
-}
-
-/// Puts the body where it was at a fraction of the step. Gravity has not accelerated it beyond that
-/// place.
-void Simulator::stop_at(Body& body, double share) const {
-    const Vec3 back = (1 - share) * body.moved;
-    body.position = body.position - back;
-    body.rotation = rotated(normalised(body.pose.rotation), share * body.turned);
-    const double gained = 2 * dot(settings_.gravity, back),
-                 square = dot(body.velocity, body.velocity);
-    if (gained > 0)
-        body.velocity = std::sqrt(std::max(0.0, 1 - gained / square)) * body.velocity;
 }
 
 } // namespace simulation

@@ -89,6 +89,15 @@ abut::Mesh bumpy_ball(double radius) {
     });
 }
 
+abut::Mesh dented_disc(double radius) {
+    abut::Mesh mesh = round_surface(24, 32, [](double, double) { return 1; });
+    for (Vec3& p : mesh.positions) {
+        const double square = p.x * p.x + p.y * p.y; // of the distance from the axis
+        p = radius * Vec3{p.x, p.y, (0.2 + 0.9 * square - 0.5 * square * square) * p.z};
+    }
+    return mesh;
+}
+
 abut::Mesh Surfaces::placed(const Simulator& simulator) const {
     abut::Mesh all;
     for (std::size_t i = 0; i < of_body.size(); ++i) {

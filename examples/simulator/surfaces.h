@@ -21,6 +21,8 @@ abut::Mesh surface_of(const abut::Model& model);
 
 /// A ball with eight bumps: a closed surface that is not convex.
 abut::Mesh bumpy_ball(double radius);
+/// A round disc with a dent in each side, like a red blood cell: closed, and not convex.
+abut::Mesh dented_disc(double radius);
 
 /// One mesh for each body of a simulator.
 struct Surfaces {
