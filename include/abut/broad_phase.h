@@ -43,7 +43,7 @@ private:
 
 /// The method that finds pairs of boxes.
 enum class BroadPhaseMethod : std::uint8_t {
-    automatic,       ///< chooses one of the others in each step, by size and measured coherence
+    automatic,       ///< tree; for up to 16,384 boxes in slow motion, loose boxes around them
     tree,            ///< wide hierarchy, refitted; rebuilt where its boxes have become too loose
     sweep,           ///< boxes sorted along one axis
     sweep_and_prune, ///< boxes sorted along three axes; examines only those that change places
@@ -85,7 +85,7 @@ public:
     /// Starts the next step, in which only the boxes with these indices have changed or are new.
     /// The indices may be in any order; each occurs once.
     ///
-    /// Cost        proportional to the changes, plus a copy of the list of pairs.
+    /// Cost        proportional to the changes. The next call of `pairs` merges them into the list.
     void update(std::span<const Box3> boxes, std::span<const std::uint32_t> changed);
     /// Makes the next update find all pairs anew. Call it when the answers of `filter` have
     /// changed.

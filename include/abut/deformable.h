@@ -34,6 +34,9 @@ enum class Scheme : std::uint8_t {
     markup,   ///< the features that both triangles represent, without boxes of features
     basic,    ///< all 15 tests
     features, ///< no triangle pairs: separate trees over vertices, edges and faces
+    /// As representative, but one pair of triangles after another, as the schemes above take them.
+    /// For a comparison on equal terms.
+    pairwise,
 };
 
 /// The broad phase that finds pairs of triangles that may meet.
@@ -47,6 +50,10 @@ struct DeformableOptions {
     Scheme scheme = Scheme::representative;
     Assignment assignment = Assignment::greedy;
     Culling culling = Culling::tree;
+    /// Keeps no boxes of features, which are more than half of the memory: they are fitted when a
+    /// search comes to them. The answers are the same. Has an effect with Scheme::representative and
+    /// Culling::tree.
+    bool lean = false;
 };
 
 /// Two features that meet during the step.

@@ -12,8 +12,10 @@ namespace abut {
 class ModelData;
 
 struct ModelOptions {
-    /// The bounding volume of the hierarchy. A query of two models uses it if both models have the
-    /// same one. Otherwise, and for a single model, queries use the boxes that every model has.
+    /// The bounding volume of the hierarchy. Searches for contacts and for the distance of two
+    /// models use it if both models have it. For models of different kinds, common_volume tells
+    /// what is used, and Counters::volume what was. All other searches use the boxes that every
+    /// model has.
     Volume volume = Volume::automatic;
     /// For building the hierarchy: only its stop flag is used.
     Progress progress{};

@@ -111,6 +111,10 @@ struct RenderStyle {
     /// what another part penetrates may then look different. Faster in software. No effect where a
     /// section opens the inside.
     bool leave_out_backs = false;
+    /// Sets whether pictures with one sample a pixel and without occlusion are shaded with fewer
+    /// steps: normals have 10 bits an axis, and no lines are drawn where a part is before itself.
+    /// Faster in software.
+    bool quick = false;
     std::vector<SectionPlane> sections; ///< at most kMostSections
     std::optional<Box3> section_box;    ///< what lies outside is cut away
     std::optional<DistanceColours> distances;
@@ -119,7 +123,8 @@ struct RenderStyle {
 
 struct RenderStatistics {
     std::uint64_t triangles = 0, draw_calls = 0; ///< of the last picture
-    /// Of the last picture: those of chunks that were left out, because others hide them.
+    /// Triangles that were left out of the last picture in software, because others hide them or
+    /// they are outside of it.
     std::uint64_t hidden_triangles = 0;
     std::uint64_t chunks = 0, bytes = 0; ///< in vertex and index buffers now
     std::uint64_t uploaded_bytes = 0;    ///< of all pictures

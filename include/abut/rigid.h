@@ -3,6 +3,7 @@
 #include <abut/model.h>
 #include <abut/progress.h>
 #include <abut/types.h>
+#include <abut/volume.h>
 
 #include <cstdint>
 #include <limits>
@@ -15,6 +16,9 @@ namespace abut {
 
 /// The work of a query: the part of its cost that does not depend on the machine.
 struct Counters {
+    /// The kind of bounding volume that was tested. It may differ from what the models were built
+    /// with: see common_volume. `automatic`: the boxes that every model has, or none.
+    Volume volume = Volume::automatic;
     std::uint64_t volume_tests = 0;    ///< pairs of bounding volumes
     std::uint64_t primitive_tests = 0; ///< pairs of triangles
     std::uint64_t exact_tests = 0; ///< orientation signs that only exact arithmetic could decide

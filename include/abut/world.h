@@ -186,7 +186,8 @@ public:
     ///             depth, to rounding. For models and deformables, with each other, boxes and convex
     ///             bodies: as `contact_manifolds` of models; else one point, as `penetration`.
     /// Errors      Error{bad_argument} if the margin is negative or not finite.
-    /// Cost        with a margin, a second broad phase, which is kept from step to step.
+    /// Cost        with a margin, a second broad phase, which is kept from step to step. Contacts
+    ///             of two models or deformables are kept while both stay in place.
     std::vector<ContactManifold> contact_manifolds(double margin = 0,
                                                    const Progress& progress = {});
 

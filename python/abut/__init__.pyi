@@ -1353,6 +1353,9 @@ class Counters:
     """The work that a query did, the same on every machine."""
     dtype: np.dtype[Any]
     @property
+    def volume(self) -> Volume:
+        """Volume that was tested; models of different kinds: see common_volume"""
+    @property
     def volume_tests(self) -> int:
         """pairs of bounding volumes"""
     @property
@@ -1398,10 +1401,11 @@ class Deformable:
     """A triangle mesh whose vertices move from step to step: in a step every vertex goes in a straight line from
     its start to its end while t goes from 0 to 1. Takes what Model takes; at rest until the first step.
 
+    lean keeps no boxes of features: less than half of the memory, somewhat slower.
     Several threads may query it; a change while a query runs raises RuntimeError.
     Raises Error (bad_mesh) as Model.
     """
-    def __init__(self, vertices: ArrayLike | _Mesh, faces: ArrayLike | None = ..., *, scheme: Scheme | str = ..., assignment: Assignment | str = ..., culling: Culling | str = ...) -> None: ...
+    def __init__(self, vertices: ArrayLike | _Mesh, faces: ArrayLike | None = ..., *, scheme: Scheme | str = ..., assignment: Assignment | str = ..., culling: Culling | str = ..., lean: bool = ...) -> None: ...
     def set_motion(self, start: ArrayLike, end: ArrayLike) -> None:
         """Sets the step: where every vertex is at t = 0 and t = 1, arrays of shape (n, 3).
 
@@ -3151,7 +3155,7 @@ class RenderStatistics:
         """of the last picture"""
     @property
     def hidden_triangles(self) -> int:
-        """of the last picture: of chunks that were left out, because others hide them"""
+        """of the last picture: left out in software, because others hide them or they are outside"""
     @property
     def chunks(self) -> int:
         """on the graphics card now"""
@@ -3164,7 +3168,7 @@ class RenderStatistics:
 
 class RenderStyle:
     """How a Renderer draws. It checks the values when it draws."""
-    def __init__(self, *, up: ArrayLike = ..., edges: bool = ..., ambient_occlusion: bool = ..., ground: Ground | None = ..., samples: int = ..., detail: float = ..., leave_out_backs: bool = ..., sections: list[SectionPlane] = ..., section_box: Box3 | None = ..., distances: DistanceColours | None = ..., background_low: Colour = ..., background_high: Colour = ...) -> None: ...
+    def __init__(self, *, up: ArrayLike = ..., edges: bool = ..., ambient_occlusion: bool = ..., ground: Ground | None = ..., samples: int = ..., detail: float = ..., leave_out_backs: bool = ..., quick: bool = ..., sections: list[SectionPlane] = ..., section_box: Box3 | None = ..., distances: DistanceColours | None = ..., background_low: Colour = ..., background_high: Colour = ...) -> None: ...
     @property
     def up(self) -> NDArray[Any]:
         """array of shape (3,), for the light from the sky"""
@@ -3186,6 +3190,9 @@ class RenderStyle:
     @property
     def leave_out_backs(self) -> bool:
         """whether backs of closed surfaces are left out; faster in software"""
+    @property
+    def quick(self) -> bool:
+        """whether shading takes fewer steps, with samples=1 and without ambient_occlusion; faster in software"""
     @property
     def sections(self) -> list[SectionPlane]:
         """list of SectionPlane, at most 7"""
@@ -3563,6 +3570,7 @@ class Scheme(IntEnum):
     markup = 2
     basic = 3
     features = 4
+    pairwise = 5
 
 class SectionPlane:
     """Cuts away the points with dot(normal, point) > offset."""
@@ -4070,6 +4078,7 @@ class Volume(IntEnum):
     pss = 7
     lss = 8
     rss = 9
+    ssv = 10
 
 class Walk:
     """A region of interest that moves through an open Store, and queries about what is there. Answers are
@@ -4561,6 +4570,11 @@ def collide(a: ConvexPieces, pose_a: _OnePose, b: ConvexPieces, pose_b: _OnePose
 def collide(a: ConvexPieces, pose_a: _Poses, b: ConvexPieces, pose_b: _Poses, *, mode: ContactMode | str = ..., warm_start: PiecesWarmStart | None = ..., progress: _Progress = ..., triangles: bool = ...) -> Any: ...
 @overload
 def collide(robot: Robot, configuration: ArrayLike, *, self_pairs: bool = ..., obstacles: RobotObstacles | None = ..., root: bool = ..., progress: _Progress = ...) -> Any: ...
+def common_volume(a: Volume | str, b: Volume | str) -> Volume:
+    """The Volume that a query of two models of these kinds tests: their own if it is the same,
+    ssv for different swept spheres (sphere, pss, lss, rss, ssv), and else the boxes that every
+    model has, automatic.
+    """
 def contact_manifolds(a: Model, pose_a: _OnePose, b: Model, pose_b: _OnePose, *, margin: float = ..., last: Sequence[ModelManifold] | None = ..., progress: _Progress = ...) -> list[ModelManifold]:
     """A normal and up to four points for each region where two Model touch.
 

@@ -82,6 +82,7 @@ PARAMETERS = {
 OWN_PARAMETERS = {
     "contact_manifolds": {"a": "Model", "b": "Model", "pose_a": "_OnePose", "pose_b": "_OnePose", "margin": "float",
                           "last": "Sequence[ModelManifold] | None"},
+    "common_volume": {"a": "Volume | str", "b": "Volume | str"},
     "Camera": {"up": "ArrayLike"}, "TourPoint": {"up": "ArrayLike", "name": "str"}, "look_at_box": {"up": "ArrayLike"},
     "picture": {"models": "Store | Iterable[Scene | _ModelPath] | Scene | _ModelPath", "section_box": "Box3 | None"},
     "PairAim": {"file": "Sequence[str]", "part": "Sequence[str]", "points": "Sequence[ArrayLike] | None"},
@@ -200,6 +201,7 @@ OTHER_OVERLOADS = {
         "t_max: ArrayLike = ..., *, progress: _Progress = ...) -> Any: ..."],
 }
 RETURNS = {
+    "common_volume": "Volume",
     "overlapping_triangles": "NDArray[np.uint32]", "self_impacts": "Impacts", "impacts": "Impacts", "overlap_graph": "GraphReport",
     "self_time_of_impact": "FeatureImpact | None", "is_free_of_self_impacts": "bool", "is_free_of_impacts": "bool",
     "self_feature_tests": "np.recarray[Any, Any]", "feature_tests": "np.recarray[Any, Any]",

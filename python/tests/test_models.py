@@ -105,6 +105,15 @@ def test_inspect_and_volumes():
         a = abut.Model(*sphere(6), volume=volume)
         gap = abut.distance(a, None, abut.Model(*sphere(6), volume=volume.name), matrix((3, 0, 0)))
         assert gap.distance == pytest.approx(1)
+        assert gap.counters.volume is volume
+    a, b = abut.Model(*sphere(6), volume="rss"), abut.Model(*sphere(6), volume="obb")
+    for other, common in ((abut.Model(*sphere(6), volume="lss"), abut.Volume.ssv), (b, abut.Volume.automatic), (a, abut.Volume.rss)):
+        gap = abut.distance(a, None, other, matrix((3, 0, 0)))
+        assert gap.counters.volume is common and gap.distance == pytest.approx(1)
+    assert abut.common_volume("rss", abut.Volume.pss) is abut.Volume.ssv
+    assert abut.common_volume("rss", "rss") is abut.Volume.rss and abut.common_volume("rss", "kdop14") is abut.Volume.automatic
+    with pytest.raises(ValueError, match="'box' is no Volume"):
+        abut.common_volume("rss", "box")
 
 
 def test_poses_of_every_kind():

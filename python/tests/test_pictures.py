@@ -1,5 +1,6 @@
 """Cameras, tours, views and pictures."""
 
+import os
 import subprocess
 import sys
 import threading
@@ -255,6 +256,8 @@ def test_renderer_draws_what_is_added(tmp_path):
     style = abut.RenderStyle(samples=2, edges=False, ambient_occlusion=False, background_low=abut.Colour(0, 0, 0),
                              background_high=abut.Colour(0, 0, 0), ground=abut.Ground((0, 0, -1), 50), leave_out_backs=True)
     assert (renderer.picture(frame, camera, style) != empty).any()
+    quick = abut.RenderStyle(ambient_occlusion=False, quick=True)
+    assert quick.quick and (renderer.picture(frame, camera, quick) != empty).any()
     renderer.remove_part(number)
     for use in (lambda: renderer.move_part(number, None), lambda: renderer.remove_part(number), lambda: renderer.set_state(10**6, abut.PartState()),
                 lambda: renderer.picture(frame, abut.Camera(forward=(0, 0, 0))), lambda: renderer.picture(frame, camera, abut.RenderStyle(samples=3)),
@@ -314,5 +317,5 @@ def test_on_screen_and_distances():
 def test_importing_needs_no_graphics():
     program = "import abut; print(abut.Camera().width)"
     result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
-                            env={"PYTHONPATH": ":".join(sys.path), "__EGL_VENDOR_LIBRARY_DIRS": "/nonexistent", "PATH": "/usr/bin"})
+                            env={**os.environ, "PYTHONPATH": ":".join(sys.path), "__EGL_VENDOR_LIBRARY_DIRS": "/nonexistent"})
     assert result.stdout == "1280\n", result.stderr

@@ -18,7 +18,7 @@ namespace abut::command {
 
 namespace {
 
-constexpr std::array<Named<Volume>, 10> kVolumes{{{"automatic", Volume::automatic},
+constexpr std::array<Named<Volume>, 11> kVolumes{{{"automatic", Volume::automatic},
                                                   {"aabb", Volume::aabb},
                                                   {"sphere", Volume::sphere},
                                                   {"kdop14", Volume::kdop14},
@@ -27,7 +27,8 @@ constexpr std::array<Named<Volume>, 10> kVolumes{{{"automatic", Volume::automati
                                                   {"obb", Volume::obb},
                                                   {"pss", Volume::pss},
                                                   {"lss", Volume::lss},
-                                                  {"rss", Volume::rss}}};
+                                                  {"rss", Volume::rss},
+                                                  {"ssv", Volume::ssv}}};
 
 } // namespace
 
@@ -144,7 +145,8 @@ nlohmann::ordered_json describe_feature(Feature kind, std::uint8_t index) {
 }
 
 nlohmann::ordered_json describe(const Counters& counters) {
-    return {{"volume_tests", counters.volume_tests},
+    return {{"volume", to_string(counters.volume)},
+            {"volume_tests", counters.volume_tests},
             {"primitive_tests", counters.primitive_tests},
             {"exact_tests", counters.exact_tests}};
 }

@@ -20,11 +20,12 @@ namespace abut::command {
 
 namespace {
 
-constexpr std::array<Named<Scheme>, 5> kSchemes{{{"representative", Scheme::representative},
+constexpr std::array<Named<Scheme>, 6> kSchemes{{{"representative", Scheme::representative},
                                                  {"database", Scheme::database},
                                                  {"markup", Scheme::markup},
                                                  {"basic", Scheme::basic},
-                                                 {"features", Scheme::features}}};
+                                                 {"features", Scheme::features},
+                                                 {"pairwise", Scheme::pairwise}}};
 constexpr std::array<Named<Assignment>, 5> kAssignments{
     {{"greedy", Assignment::greedy},
      {"maximal", Assignment::maximal},
@@ -262,6 +263,8 @@ Subcommand add_ccd(CLI::App& root, CommonOptions& common) {
                "Which triangle represents a vertex or an edge; it does not change the answer");
     add_choice(*app, "--culling", arguments->surface.culling, kCullings,
                "How pairs of triangles are found; it does not change the answer");
+    app->add_flag("--lean", arguments->surface.lean,
+                  "Keep no boxes of features: less than half of the memory, somewhat slower");
     add_elementary_arguments(*app, arguments->elementary);
     app->add_flag("--allow-topology-changes", arguments->allow_topology_changes,
                   "Restart at a frame with other triangles instead of refusing it");

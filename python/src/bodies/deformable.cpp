@@ -146,25 +146,26 @@ py::class_<Surface> surface_class(py::module_& module) {
     return py::class_<Surface>(
                module, "Deformable",
                "Deformable(vertices, faces, *, scheme='representative', assignment='greedy', "
-               "culling='tree')\n\n"
+               "culling='tree', lean=False)\n\n"
                "A triangle mesh whose vertices move from step to step: in a step every vertex goes "
                "in a "
                "straight line from\n"
                "its start to its end while t goes from 0 to 1. Takes what Model takes; at rest "
                "until the "
                "first step.\n\n"
+               "lean keeps no boxes of features: less than half of the memory, somewhat slower.\n"
                "Several threads may query it; a change while a query runs raises RuntimeError.\n"
                "Raises Error (bad_mesh) as Model.")
         .def(py::init([](const py::object& vertices, const py::object& faces, Scheme scheme,
-                         Assignment assignment, Culling culling) {
+                         Assignment assignment, Culling culling, bool lean) {
                  Mesh mesh = to_mesh_value(vertices, faces);
                  const py::gil_scoped_release unlocked;
-                 return std::make_unique<Surface>(std::move(mesh),
-                                                  DeformableOptions{scheme, assignment, culling});
+                 return std::make_unique<Surface>(
+                     std::move(mesh), DeformableOptions{scheme, assignment, culling, lean});
              }),
              py::arg("vertices"), py::arg("faces") = py::none(), py::kw_only(),
              py::arg("scheme") = "representative", py::arg("assignment") = "greedy",
-             py::arg("culling") = "tree")
+             py::arg("culling") = "tree", py::arg("lean") = false)
         .def(
             "set_motion",
             [](Surface& self, const py::object& start, const py::object& end) {
@@ -400,7 +401,7 @@ void bind_deformable(py::module_& module) {
         {"greedy", "maximal", "uniform_vertex_edge", "uniform_edge_edge", "adaptive"},
         "Which one of its triangles represents a vertex or an edge.");
     bind_enum<Scheme>(module, "Scheme",
-                      {"representative", "database", "markup", "basic", "features"},
+                      {"representative", "database", "markup", "basic", "features", "pairwise"},
                       "How pairs of triangles that may meet become tests of features.");
     bind_enum<Culling>(module, "Culling", {"tree", "grid", "sweep"},
                        "How pairs of triangles that may meet are found.");

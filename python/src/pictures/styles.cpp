@@ -109,13 +109,13 @@ void bind_distance_colours(py::module_& module) {
 
 RenderStyle make_style(const py::object& up, bool edges, bool ambient_occlusion,
                        const std::optional<Ground>& ground, std::uint32_t samples, double detail,
-                       bool leave_out_backs, const std::vector<SectionPlane>& sections,
+                       bool leave_out_backs, bool quick, const std::vector<SectionPlane>& sections,
                        const std::optional<Box3>& section_box,
                        const std::optional<DistanceColours>& distances,
                        const Colour& background_low, const Colour& background_high) {
-    return {to_vec3(up, "up"), edges,     ambient_occlusion, ground,
-            samples,           detail,    leave_out_backs,   sections,
-            section_box,       distances, background_low,    background_high};
+    return {to_vec3(up, "up"), edges, ambient_occlusion, ground,      samples,   detail,
+            leave_out_backs,   quick, sections,          section_box, distances, background_low,
+            background_high};
 }
 
 void bind_style(py::module_& module) {
@@ -123,10 +123,10 @@ void bind_style(py::module_& module) {
     PlainBinder<RenderStyle>(
         module, "RenderStyle",
         "RenderStyle(*, up=(0, 0, 1), edges=True, ambient_occlusion=True, ground=None, samples=1,\n"
-        "            detail=0.5, leave_out_backs=False, sections=[], section_box=None, "
-        "distances=None,\n"
-        "            background_low=Colour(236, 239, 242), background_high=Colour(171, 189, 208))"
-        "\n\nHow a Renderer draws. It checks the values when it draws.")
+        "            detail=0.5, leave_out_backs=False, quick=False, sections=[], "
+        "section_box=None,\n            distances=None, background_low=Colour(236, 239, 242),\n"
+        "            background_high=Colour(171, 189, 208))\n\nHow a Renderer draws. It checks the "
+        "values when it draws.")
         .field("up", &RenderStyle::up, "array of shape (3,), for the light from the sky")
         .field("edges", &RenderStyle::edges, "dark lines at silhouettes and creases")
         .field("ambient_occlusion", &RenderStyle::ambient_occlusion, "darker corners")
@@ -136,6 +136,9 @@ void bind_style(py::module_& module) {
                "length, about the size of a common part: how far occlusion reaches")
         .field("leave_out_backs", &RenderStyle::leave_out_backs,
                "whether backs of closed surfaces are left out; faster in software")
+        .field("quick", &RenderStyle::quick,
+               "whether shading takes fewer steps, with samples=1 and without ambient_occlusion; "
+               "faster in software")
         .field("sections", &RenderStyle::sections, "list of SectionPlane, at most 7")
         .field("section_box", &RenderStyle::section_box,
                "Box3; what lies outside is cut away; else None")
@@ -147,8 +150,9 @@ void bind_style(py::module_& module) {
              py::arg("edges") = usual.edges, py::arg("ambient_occlusion") = usual.ambient_occlusion,
              py::arg("ground") = py::none(), py::arg("samples") = usual.samples,
              py::arg("detail") = usual.detail, py::arg("leave_out_backs") = usual.leave_out_backs,
-             py::arg("sections") = usual.sections, py::arg("section_box") = py::none(),
-             py::arg("distances") = py::none(), py::arg("background_low") = usual.background_low,
+             py::arg("quick") = usual.quick, py::arg("sections") = usual.sections,
+             py::arg("section_box") = py::none(), py::arg("distances") = py::none(),
+             py::arg("background_low") = usual.background_low,
              py::arg("background_high") = usual.background_high);
 }
 
@@ -167,7 +171,8 @@ void bind_render_styles(py::module_& module) {
         .field("triangles", &RenderStatistics::triangles, "of the last picture")
         .field("draw_calls", &RenderStatistics::draw_calls, "of the last picture")
         .field("hidden_triangles", &RenderStatistics::hidden_triangles,
-               "of the last picture: of chunks that were left out, because others hide them")
+               "of the last picture: left out in software, because others hide them or they are "
+               "outside")
         .field("chunks", &RenderStatistics::chunks, "on the graphics card now")
         .field("bytes", &RenderStatistics::bytes, "in vertex and index buffers now")
         .field("uploaded_bytes", &RenderStatistics::uploaded_bytes, "of all pictures")

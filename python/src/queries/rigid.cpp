@@ -211,6 +211,8 @@ void bind_rigid(py::module_& module) {
                            "Whether to stop at the first pair.");
     RecordBinder<Counters>(module, "Counters",
                            "The work that a query did, the same on every machine.")
+        .field("volume", &Counters::volume,
+               "Volume that was tested; models of different kinds: see common_volume")
         .field("volume_tests", &Counters::volume_tests, "pairs of bounding volumes")
         .field("primitive_tests", &Counters::primitive_tests, "pairs of triangles")
         .field("exact_tests", &Counters::exact_tests,
