@@ -6,6 +6,9 @@
 
 namespace abut::bench {
 
+/// Milliseconds in a second.
+inline constexpr double kMilliseconds = 1e3;
+
 /// Seconds that this thread has computed. Time used by other processes does not count.
 double thread_seconds();
 /// Seconds of wall time.

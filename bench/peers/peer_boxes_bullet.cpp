@@ -67,21 +67,21 @@ private:
     std::vector<btBroadphaseProxy*> proxies_;
 };
 
-std::unique_ptr<BoxPeer> make_sweep(std::span<const Box3> boxes) {
+std::unique_ptr<BoxPeer> bullet_sweep(std::span<const Box3> boxes) {
     // The world's bounds must be known beforehand: coordinates are quantised within them.
     const double scale = scale_of(boxes);
     return std::make_unique<BulletBoxes<bt32BitAxisSweep3>>(
         "Bullet sweep and prune", boxes, scaled({-2, -2, -2}, scale), scaled({3, 3, 3}, scale),
         static_cast<unsigned>(boxes.size()) + 2);
 }
-std::unique_ptr<BoxPeer> make_tree(std::span<const Box3> boxes) {
+std::unique_ptr<BoxPeer> bullet_tree(std::span<const Box3> boxes) {
     return std::make_unique<BulletBoxes<btDbvtBroadphase>>("Bullet Dbvt", boxes);
 }
 
 } // namespace
 
 std::vector<MakeBoxPeer> bullet_box_peers() {
-    return {make_sweep, make_tree};
+    return {bullet_sweep, bullet_tree};
 }
 
 #else

@@ -53,18 +53,18 @@ private:
     std::vector<std::pair<fcl::CollisionObjectd*, fcl::CollisionObjectd*>> pairs_;
 };
 
-std::unique_ptr<BoxPeer> make_tree(std::span<const Box3> boxes) {
+std::unique_ptr<BoxPeer> fcl_tree(std::span<const Box3> boxes) {
     return std::make_unique<FclBoxes<fcl::DynamicAABBTreeCollisionManagerd>>("FCL dynamic tree",
                                                                              boxes);
 }
-std::unique_ptr<BoxPeer> make_sweep(std::span<const Box3> boxes) {
+std::unique_ptr<BoxPeer> fcl_sweep(std::span<const Box3> boxes) {
     return std::make_unique<FclBoxes<fcl::SSaPCollisionManagerd>>("FCL sweep on one axis", boxes);
 }
 
 } // namespace
 
 std::vector<MakeBoxPeer> fcl_box_peers() {
-    return {make_tree, make_sweep};
+    return {fcl_tree, fcl_sweep};
 }
 
 #else

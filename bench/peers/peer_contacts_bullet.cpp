@@ -2,6 +2,8 @@
 
 #ifdef ABUT_BENCH_BULLET
 
+#include "peers/bullet_convert.h"
+
 #include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
 #include <BulletCollision/Gimpact/btGImpactShape.h>
 #include <btBulletCollisionCommon.h>
@@ -10,12 +12,6 @@
 namespace abut::bench {
 
 namespace {
-
-btTransform to_bullet(const Transform& t) {
-    const auto m = [&](std::size_t i) { return static_cast<btScalar>(t.m[i]); };
-    return btTransform(btMatrix3x3(m(0), m(3), m(6), m(1), m(4), m(7), m(2), m(5), m(8)),
-                       btVector3(m(9), m(10), m(11)));
-}
 
 /// Counts the contacts of one test.
 struct ContactCount final : btCollisionWorld::ContactResultCallback {

@@ -1,6 +1,8 @@
 #include "peers/peer_convex.h"
 
 #ifdef ABUT_BENCH_BULLET
+#include "peers/bullet_convert.h"
+
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
@@ -17,18 +19,10 @@ namespace {
 std::unique_ptr<btConvexHullShape> bullet_shape(const Convex& body) {
     auto shape = std::make_unique<btConvexHullShape>();
     for (const Vec3& p : body.vertices())
-        shape->addPoint(btVector3(static_cast<btScalar>(p.x), static_cast<btScalar>(p.y),
-                                  static_cast<btScalar>(p.z)),
-                        false);
+        shape->addPoint(to_bullet(p), false);
     shape->recalcLocalAabb();
     shape->setMargin(0);
     return shape;
-}
-
-btTransform bullet_transform(const Transform& t) {
-    const auto at = [&](std::size_t i) { return static_cast<btScalar>(t.m[i]); };
-    return btTransform(btMatrix3x3(at(0), at(3), at(6), at(1), at(4), at(7), at(2), at(5), at(8)),
-                       btVector3(at(9), at(10), at(11)));
 }
 
 class BulletConvexPeer final : public ConvexPeer {
@@ -42,8 +36,8 @@ public:
         inputs_.clear();
         for (const PosedPair& p : poses) {
             btDiscreteCollisionDetectorInterface::ClosestPointInput input;
-            input.m_transformA = bullet_transform(p.a);
-            input.m_transformB = bullet_transform(p.b);
+            input.m_transformA = to_bullet(p.a);
+            input.m_transformB = to_bullet(p.b);
             inputs_.push_back(input);
         }
     }

@@ -20,21 +20,21 @@ struct ContactBody {
 };
 
 /// A peer that keeps bodies and their contacts from step to step.
-class ContactPeer {
+class ManifoldPeer {
 public:
-    virtual ~ContactPeer() = default;
+    virtual ~ManifoldPeer() = default;
     [[nodiscard]] virtual std::string name() const = 0;
     /// Moves all bodies and finds their contacts. Returns the number of contact points.
     virtual std::size_t step(const std::vector<Pose>& poses) = 0;
 
 protected:
-    ContactPeer() = default;
-    ContactPeer(const ContactPeer&) = default;
-    ContactPeer& operator=(const ContactPeer&) = default;
+    ManifoldPeer() = default;
+    ManifoldPeer(const ManifoldPeer&) = default;
+    ManifoldPeer& operator=(const ManifoldPeer&) = default;
 };
 
 /// Bullet's collision world in single precision, as packaged by Debian, with its own margins. Null
 /// if this program is built without Bullet.
-std::unique_ptr<ContactPeer> make_bullet_contacts(const std::vector<ContactBody>& bodies);
+std::unique_ptr<ManifoldPeer> make_bullet_manifolds(const std::vector<ContactBody>& bodies);
 
 } // namespace abut::bench

@@ -1,6 +1,8 @@
 #include "peers/peer_manifolds.h"
 
 #ifdef ABUT_BENCH_BULLET
+#include "peers/bullet_convert.h"
+
 #include <btBulletCollisionCommon.h>
 #include <fmt/format.h>
 #endif
@@ -11,26 +13,22 @@ namespace abut::bench {
 
 namespace {
 
-btVector3 bullet_point(const Vec3& p) {
-    return {static_cast<btScalar>(p.x), static_cast<btScalar>(p.y), static_cast<btScalar>(p.z)};
-}
-
 std::unique_ptr<btCollisionShape> bullet_shape(const ContactBody& body) {
     if (body.kind == ContactBody::Kind::box)
-        return std::make_unique<btBoxShape>(bullet_point(body.half));
+        return std::make_unique<btBoxShape>(to_bullet(body.half));
     if (body.kind == ContactBody::Kind::capsule)
         return std::make_unique<btCapsuleShapeZ>(static_cast<btScalar>(body.radius),
                                                  static_cast<btScalar>(2 * body.half.z));
     auto hull = std::make_unique<btConvexHullShape>();
     for (const Vec3& point : body.points)
-        hull->addPoint(bullet_point(point), false);
+        hull->addPoint(to_bullet(point), false);
     hull->recalcLocalAabb();
     return hull;
 }
 
-class BulletContacts final : public ContactPeer {
+class BulletManifolds final : public ManifoldPeer {
 public:
-    explicit BulletContacts(const std::vector<ContactBody>& bodies) {
+    explicit BulletManifolds(const std::vector<ContactBody>& bodies) {
         world_.setForceUpdateAllAabbs(false);
         for (const ContactBody& body : bodies) {
             shapes_.push_back(bullet_shape(body));
@@ -49,12 +47,12 @@ public:
                                : btBroadphaseProxy::AllFilter);
         }
     }
-    ~BulletContacts() override {
+    ~BulletManifolds() override {
         for (const auto& object : objects_)
             world_.removeCollisionObject(object.get());
     }
-    BulletContacts(const BulletContacts&) = delete;
-    BulletContacts& operator=(const BulletContacts&) = delete;
+    BulletManifolds(const BulletManifolds&) = delete;
+    BulletManifolds& operator=(const BulletManifolds&) = delete;
 
     [[nodiscard]] std::string name() const override {
         return fmt::format("Bullet {}, float", btGetVersion());
@@ -65,7 +63,7 @@ public:
             const auto at = [&](std::size_t k) { return static_cast<btScalar>(q[k]); };
             objects_[i]->setWorldTransform(
                 btTransform(btQuaternion(at(1), at(2), at(3), at(0)).normalized(),
-                            bullet_point(poses[i].translation)));
+                            to_bullet(poses[i].translation)));
         }
         world_.performDiscreteCollisionDetection();
         std::size_t points = 0;
@@ -86,13 +84,13 @@ private:
 
 } // namespace
 
-std::unique_ptr<ContactPeer> make_bullet_contacts(const std::vector<ContactBody>& bodies) {
-    return std::make_unique<BulletContacts>(bodies);
+std::unique_ptr<ManifoldPeer> make_bullet_manifolds(const std::vector<ContactBody>& bodies) {
+    return std::make_unique<BulletManifolds>(bodies);
 }
 
 #else
 
-std::unique_ptr<ContactPeer> make_bullet_contacts(const std::vector<ContactBody>& /*bodies*/) {
+std::unique_ptr<ManifoldPeer> make_bullet_manifolds(const std::vector<ContactBody>& /*bodies*/) {
     return {};
 }
 

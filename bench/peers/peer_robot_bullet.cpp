@@ -2,6 +2,8 @@
 
 #ifdef ABUT_BENCH_BULLET
 
+#include "peers/bullet_convert.h"
+
 #include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
 #include <BulletCollision/Gimpact/btGImpactShape.h>
 #include <btBulletCollisionCommon.h>
@@ -11,12 +13,6 @@
 namespace abut::bench {
 
 namespace {
-
-btTransform bullet_transform(const Transform& t) {
-    const auto m = [&](std::size_t i) { return static_cast<btScalar>(t.m[i]); };
-    return btTransform(btMatrix3x3(m(0), m(3), m(6), m(1), m(4), m(7), m(2), m(5), m(8)),
-                       btVector3(m(9), m(10), m(11)));
-}
 
 /// Triangle meshes (GImpact) in a collision world with a dynamic tree. Bullet has no distance of two
 /// meshes.
@@ -42,7 +38,7 @@ public:
 
     bool collide(std::span<const Transform> links) override {
         for (const auto& body : bodies_)
-            body->object->setWorldTransform(bullet_transform(links[body->link]) * body->place);
+            body->object->setWorldTransform(to_bullet(links[body->link]) * body->place);
         world_.performDiscreteCollisionDetection();
         for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
             const btPersistentManifold* manifold = dispatcher_.getManifoldByIndexInternal(i);
@@ -84,7 +80,7 @@ private:
         body->object->setCollisionShape(body->shape.get());
         body->object->setUserIndex(static_cast<int>(link));
         body->link = link;
-        body->place = bullet_transform(shape.link_from_shape);
+        body->place = to_bullet(shape.link_from_shape);
         world_.addCollisionObject(body->object.get());
         bodies_.push_back(std::move(body));
     }

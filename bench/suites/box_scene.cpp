@@ -20,6 +20,8 @@ constexpr std::size_t kBurstShare = 10;
 /// about 8.3 and (a + b)^2 about 4.2, in units of the mean side.
 double mean_side(BoxLayout layout, std::size_t count) {
     const auto n = static_cast<double>(count);
+    if (layout == BoxLayout::heap)
+        return 1 / std::ceil(std::cbrt(n));
     if (layout == BoxLayout::planes)
         return std::sqrt(kPartners * kFloors / 4.2 / n);
     // Two partners are in the box's own pile; the others are in three levels of each pile that it
@@ -36,7 +38,7 @@ BoxScene::BoxScene(BoxLayout layout, std::size_t count, std::uint64_t seed)
     draw_centres();
     for (std::size_t i = 0; i < count; ++i) {
         boxes_.push_back(draw_box(i));
-        const double v = 0.02 * side_;
+        const double v = (layout == BoxLayout::heap ? 0.002 : 0.02) * side_;
         velocities_.push_back({draw(-v, v), draw(-v, v), draw(-v, v)});
     }
     add_spanning_boxes();
@@ -72,6 +74,14 @@ Vec3 BoxScene::draw_point(std::size_t index) {
         const double x = draw(-0.1, 0.1) * side_, y = draw(-0.1, 0.1) * side_;
         return {pile.x + x, pile.y + y, 0};
     }
+    if (layout_ == BoxLayout::heap) {
+        const auto row = static_cast<std::size_t>(std::lround(1 / side_));
+        const auto along = [&](std::size_t place) {
+            return side_ * (static_cast<double>(place) + 0.5 + draw(-0.05, 0.05));
+        };
+        const double x = along(index % row), y = along(index / row % row);
+        return {x, y, along(index / row / row)};
+    }
     if (layout_ != BoxLayout::clustered)
         return {draw(0, 1), draw(0, 1), draw(0, 1)};
     const Vec3& centre =
@@ -88,6 +98,10 @@ Box3 BoxScene::draw_box(std::size_t index) {
         side *= 0.38;
     if (layout_ == BoxLayout::sizes)
         side *= 0.1 * std::pow(1000.0, 0.6 * draw(0, 1) * draw(0, 1));
+    if (layout_ == BoxLayout::heap) {
+        const double h = 0.5 * side;
+        return {{p.x - h, p.y - h, p.z - h}, {p.x + h, p.y + h, p.z + h}};
+    }
     const Vec3 h{0.5 * side * draw(0.5, 1.5), 0.5 * side * draw(0.5, 1.5),
                  0.5 * side * draw(0.5, 1.5)};
     if (layout_ == BoxLayout::planes) {

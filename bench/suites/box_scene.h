@@ -19,12 +19,13 @@ enum class BoxLayout : std::uint8_t {
     planes,    ///< standing on ten floors, so that coordinates are equal
     sizes,     ///< uniform, with sides from a tenth of the mean to six times the mean
     piles,     ///< piles of twenty, anywhere; each box touches the next, at equal coordinates
+    heap,      ///< equal boxes, one beside the other, each off its place by up to 5 %
 };
 
 /// How boxes move from step to step.
 enum class BoxMotion : std::uint8_t {
-    coherent, ///< each moves in its own direction, by about 2 % of the mean side, and turns at
-              ///< walls
+    coherent, ///< each moves in its own direction, by about 2 % of the mean side (in the heap
+              ///< 0.2 %), and turns at walls
     teleport, ///< all boxes jump to other places
     bursts,   ///< coherent, and in every fifth step a tenth of the boxes jumps to other places
     resets,   ///< coherent, and in every fifth step all boxes jump to other places

@@ -8,6 +8,7 @@
 #include "peers/peer_rigid.h"
 #include "peers/peer_swept.h"
 #include "scenes/deforming/deforming.h"
+#include "suites/any_culling_rows.h"
 #include "suites/rest_rows.h"
 
 #include <algorithm>
@@ -19,8 +20,6 @@
 namespace abut::bench {
 
 namespace {
-
-constexpr double kMs = 1e3;
 
 void add_counters(Row& row, const Impacts& impacts, const Deformable& surface) {
     double faces = 0;
@@ -53,10 +52,10 @@ Row all_impacts_row(const CcdStep& step, int rounds) {
     const Turns turns = take_turns(
         rounds, [&] { impacts = do_step(surface, step); },
         [&] { pairs = embree_swept_pairs(step); });
-    Row row{step.name + ", all impacts", kMs * turns.ours, {}, {}, "ms", 1, {}};
+    Row row{step.name + ", all impacts", kMilliseconds * turns.ours, {}, {}, "ms", 1, {}};
     if (pairs) {
         row.peer = "Embree 3, swept boxes of triangles only";
-        row.theirs = kMs * turns.theirs;
+        row.theirs = kMilliseconds * turns.theirs;
         row.counters["triangle pairs of the peer"] = static_cast<double>(*pairs);
     }
     add_counters(row, impacts, surface);
@@ -72,9 +71,9 @@ Row threads_row(const CcdStep& step, int rounds) {
     const Turns turns = take_turns(
         rounds, [&] { on(2); }, [&] { on(1); });
     return {step.name + ", all impacts, two threads",
-            kMs * turns.ours,
+            kMilliseconds * turns.ours,
             "abut, one thread",
-            kMs * turns.theirs,
+            kMilliseconds * turns.theirs,
             "ms",
             2,
             {}};
@@ -92,9 +91,9 @@ Row earliest_row(const CcdStep& step, int rounds) {
         },
         [&] { do_step(surface, step); });
     Row row{step.name + ", earliest impact",
-            kMs * turns.ours,
+            kMilliseconds * turns.ours,
             "abut, all impacts",
-            kMs * turns.theirs,
+            kMilliseconds * turns.theirs,
             "ms",
             1,
             {}};
@@ -102,22 +101,67 @@ Row earliest_row(const CcdStep& step, int rounds) {
     return row;
 }
 
-Row scheme_row(const CcdStep& step, const std::string& name, const DeformableOptions& options,
-               int rounds) {
-    Deformable ours(step.start), theirs(step.start, options);
+/// Compares two schemes. The counters are those of the second.
+Row scheme_row(const CcdStep& step, const std::string& name, const DeformableOptions& first,
+               const DeformableOptions& second, int rounds) {
+    Deformable ours(step.start, first), theirs(step.start, second);
     Impacts impacts;
     set_threads(1);
     const Turns turns = take_turns(
         rounds, [&] { do_step(ours, step); }, [&] { impacts = do_step(theirs, step); });
     Row row{step.name + ", all impacts",
-            kMs * turns.ours,
+            kMilliseconds * turns.ours,
             "abut, " + name,
-            kMs * turns.theirs,
+            kMilliseconds * turns.theirs,
             "ms",
             1,
             {}};
     add_counters(row, impacts, theirs);
     return row;
+}
+
+/// A scheme and its name in the report.
+struct NamedOptions {
+    std::string name;
+    DeformableOptions options;
+};
+
+/// The schemes that take pairs of triangles one by one, and the names of the comparison in which all
+/// of them have the same boxes and filters, and none has leaves or flat regions.
+const char* const kOneByOne = ", all impacts, triangle pairs one by one";
+std::vector<NamedOptions> one_by_one() {
+    return {{"markup", {.scheme = Scheme::markup}},
+            {"database", {.scheme = Scheme::database}},
+            {"basic", {.scheme = Scheme::basic}}};
+}
+
+double impacts_of(const Row& row) {
+    const auto all = row.counters.find("impacts");
+    return all != row.counters.end()
+               ? all->second
+               : row.counters.at("vertex-face impacts") + row.counters.at("edge-edge impacts");
+}
+
+/// Adds the figures that [Curtis, Tamstorf, Manocha 2008] compares schemes by. Their elementary tests
+/// are our candidates, since they have no filter between boxes and roots.
+///
+/// In          rows of one step or scene, that of representative triangles first.
+void add_shares(std::vector<Row>& rows) {
+    double pairs = 0; // the most of all rows: flat regions leave out some
+    for (const Row& row : rows)
+        if (const auto each = row.counters.find("triangle pairs"); each != row.counters.end())
+            pairs = std::max(pairs, each->second);
+    const double representatives = rows.front().counters.at("candidates");
+    for (Row& row : rows) {
+        const auto candidates = row.counters.find("candidates");
+        if (candidates == row.counters.end() || candidates->second == 0)
+            continue;
+        row.counters["candidates over those of representatives"] =
+            candidates->second / representatives;
+        row.counters["% of 15 tests a pair culled"] = 100 - 100 * candidates->second / (15 * pairs);
+        row.counters["% of candidates without an impact"] =
+            100 - 100 * impacts_of(row) / candidates->second;
+    }
 }
 
 } // namespace
@@ -126,8 +170,9 @@ std::vector<Row> ccd_step_rows(const CcdStep& step, int rounds) {
     std::vector<Row> rows{all_impacts_row(step, rounds), threads_row(step, rounds),
                           earliest_row(step, rounds), at_rest_row(step, rounds)};
     const auto add = [&](const std::string& name, const DeformableOptions& options) {
-        rows.push_back(scheme_row(step, name, options, rounds));
+        rows.push_back(scheme_row(step, name, {}, options, rounds));
     };
+    add("lean", {.lean = true});
     add("markup", {.scheme = Scheme::markup});
     add("database", {.scheme = Scheme::database});
     add("basic", {.scheme = Scheme::basic});
@@ -137,6 +182,20 @@ std::vector<Row> ccd_step_rows(const CcdStep& step, int rounds) {
     add("uniform assignment, edges alone", {.assignment = Assignment::uniform_edge_edge});
     add("grid", {.culling = Culling::grid});
     add("sweep and prune", {.culling = Culling::sweep});
+    add("markup, maximal assignment",
+        {.scheme = Scheme::markup, .assignment = Assignment::maximal});
+    add("markup, uniform assignment, vertices with edges",
+        {.scheme = Scheme::markup, .assignment = Assignment::uniform_vertex_edge});
+    add("markup, uniform assignment, edges alone",
+        {.scheme = Scheme::markup, .assignment = Assignment::uniform_edge_edge});
+    for (const NamedOptions& each : one_by_one()) {
+        rows.push_back(
+            scheme_row(step, each.name, {.scheme = Scheme::pairwise}, each.options, rounds));
+        rows.back().name = step.name + kOneByOne;
+    }
+    add_shares(rows);
+    for (Row& row : any_culling_rows(step, rounds))
+        rows.push_back(std::move(row));
     set_threads(0);
     return rows;
 }
@@ -178,6 +237,51 @@ struct SchemeSum {
     }
 };
 
+Row scene_row(const std::string& scene, const SchemeSum& sum, double ours, double measured,
+              const Mesh& mesh) {
+    Row row{scene + ", all impacts", ours, {}, {}, "ms/frame", 1, {}};
+    if (sum.name != "representative") {
+        row.peer = "abut, " + sum.name;
+        row.theirs = kMilliseconds * sum.seconds / measured;
+    }
+    const auto mean = [&](std::uint64_t total) { return static_cast<double>(total) / measured; };
+    row.counters["frames measured"] = measured;
+    row.counters["triangles"] = static_cast<double>(mesh.triangles.size());
+    row.counters["impacts"] = sum.found / measured;
+    row.counters["triangle pairs"] = mean(sum.counters.triangle_pairs);
+    row.counters["candidates"] =
+        mean(sum.counters.candidates.vertex_face + sum.counters.candidates.edge_edge);
+    row.counters["elementary tests"] =
+        mean(sum.counters.elementary_tests.vertex_face + sum.counters.elementary_tests.edge_edge);
+    row.counters["exact fallbacks"] = mean(sum.counters.exact_fallbacks);
+    row.counters["bytes a triangle"] = sum.bytes / measured;
+    return row;
+}
+
+/// Rows of all schemes, the first of which is `representative` and the last `pairwise`.
+std::vector<Row> scene_rows(const std::string& scene, const std::vector<SchemeSum>& sums,
+                            double measured, const Mesh& mesh) {
+    const std::vector<NamedOptions> schemes = one_by_one();
+    std::vector<Row> rows;
+    rows.reserve(sums.size() + schemes.size());
+    for (const SchemeSum& sum : sums)
+        rows.push_back(
+            scene_row(scene, sum, kMilliseconds * sums.front().seconds / measured, measured, mesh));
+    add_shares(rows);
+    for (const NamedOptions& each : schemes) {
+        const auto other = std::find_if(
+            sums.begin(), sums.end(), [&](const SchemeSum& sum) { return sum.name == each.name; });
+        rows.push_back({scene + kOneByOne,
+                        kMilliseconds * sums.back().seconds / measured,
+                        "abut, " + each.name,
+                        kMilliseconds * other->seconds / measured,
+                        "ms/frame",
+                        1,
+                        {}});
+    }
+    return rows;
+}
+
 } // namespace
 
 std::vector<Row> ccd_scene_rows(const std::string& scene_name, int samples, int rounds) {
@@ -194,6 +298,8 @@ std::vector<Row> ccd_scene_rows(const std::string& scene_name, int samples, int 
     add("database", {.scheme = Scheme::database});
     add("basic", {.scheme = Scheme::basic});
     add("trees over features", {.scheme = Scheme::features});
+    add("lean", {.lean = true});
+    add("one by one", {.scheme = Scheme::pairwise});
 
     double measured = 0;
     CcdStep step{scene_name, scene->mesh(), {}};
@@ -214,30 +320,7 @@ std::vector<Row> ccd_scene_rows(const std::string& scene_name, int samples, int 
     }
     set_threads(0);
 
-    std::vector<Row> rows;
-    const double ours = kMs * sums.front().seconds / measured;
-    for (const SchemeSum& sum : sums) {
-        Row row{scene_name + ", all impacts", ours, {}, {}, "ms/frame", 1, {}};
-        if (&sum != &sums.front()) {
-            row.peer = "abut, " + sum.name;
-            row.theirs = kMs * sum.seconds / measured;
-        }
-        const auto mean = [&](std::uint64_t total) {
-            return static_cast<double>(total) / measured;
-        };
-        row.counters["frames measured"] = measured;
-        row.counters["triangles"] = static_cast<double>(step.start.triangles.size());
-        row.counters["impacts"] = sum.found / measured;
-        row.counters["triangle pairs"] = mean(sum.counters.triangle_pairs);
-        row.counters["candidates"] =
-            mean(sum.counters.candidates.vertex_face + sum.counters.candidates.edge_edge);
-        row.counters["elementary tests"] = mean(sum.counters.elementary_tests.vertex_face +
-                                                sum.counters.elementary_tests.edge_edge);
-        row.counters["exact fallbacks"] = mean(sum.counters.exact_fallbacks);
-        row.counters["bytes a triangle"] = sum.bytes / measured;
-        rows.push_back(std::move(row));
-    }
-    return rows;
+    return scene_rows(scene_name, sums, measured, step.start);
 }
 
 std::vector<Row> calibration_rows(int rounds) {
@@ -264,10 +347,16 @@ std::vector<Row> calibration_rows(int rounds) {
                 theirs.push_back(*seconds);
         });
     set_threads(0);
-    Row row{"calibration: build of 1,000,000 triangles", kMs * turns.ours, {}, {}, "ms", 1, {}};
+    Row row{"calibration: build of 1,000,000 triangles",
+            kMilliseconds * turns.ours,
+            {},
+            {},
+            "ms",
+            1,
+            {}};
     if (!theirs.empty()) {
         row.peer = "Embree 3, medium quality";
-        row.theirs = kMs * median(theirs);
+        row.theirs = kMilliseconds * median(theirs);
     }
     return {row};
 }

@@ -32,7 +32,7 @@ struct CcdSuiteOptions {
     std::uint64_t seed = 1;
 };
 
-struct Case {
+struct CcdCase {
     std::string name;
     std::vector<ElementaryPair> pairs;
     std::vector<bool> truth;
@@ -109,15 +109,15 @@ const char* name_of(ElementaryKind kind) {
 constexpr double kThickness = 1e-3;
 
 /// Pairs that meet, tested without and with a thickness.
-std::vector<Case> generated_cases(const CcdSuiteOptions& options) {
-    std::vector<Case> cases;
+std::vector<CcdCase> generated_cases(const CcdSuiteOptions& options) {
+    std::vector<CcdCase> cases;
     PairMaker maker(options.seed);
     for (const auto kind : {ElementaryKind::vertex_face, ElementaryKind::edge_edge}) {
-        Case meeting{fmt::format("generated, {}, contacts", name_of(kind)), {}, {}};
+        CcdCase meeting{fmt::format("generated, {}, contacts", name_of(kind)), {}, {}};
         while (meeting.pairs.size() < options.pairs)
             meeting.pairs.push_back(maker.meeting(kind));
         meeting.truth.assign(meeting.pairs.size(), true);
-        Case thick = meeting;
+        CcdCase thick = meeting;
         thick.name = fmt::format("generated, {}, within {}", name_of(kind), kThickness);
         thick.thickness = kThickness;
         cases.push_back(std::move(meeting));
@@ -127,27 +127,27 @@ std::vector<Case> generated_cases(const CcdSuiteOptions& options) {
 }
 
 /// The queries of all files, by kind and truth, and all contacts of both kinds together.
-std::vector<Case> file_cases(const std::vector<std::string>& files) {
-    std::array<Case, 4> cases;
-    Case contacts{"queries, all contacts", {}, {}};
+std::vector<CcdCase> file_cases(const std::vector<std::string>& files) {
+    std::array<CcdCase, 4> cases;
+    CcdCase contacts{"queries, all contacts", {}, {}};
     for (const std::string& file : files) {
         const ElementaryQueries queries = read_elementary_queries(file);
         for (std::size_t i = 0; i < queries.truth.size(); ++i) {
             const ElementaryPair& pair = queries.pairs[i];
             const bool truth = queries.truth[i];
-            Case& c =
+            CcdCase& c =
                 cases.at((pair.kind == ElementaryKind::vertex_face ? 0 : 2) + (truth ? 0 : 1));
             c.name =
                 fmt::format("queries, {}, {}", name_of(pair.kind), truth ? "contacts" : "misses");
-            for (Case* each : {&c, truth ? &contacts : nullptr})
+            for (CcdCase* each : {&c, truth ? &contacts : nullptr})
                 if (each != nullptr) {
                     each->pairs.push_back(pair);
                     each->truth.push_back(truth);
                 }
         }
     }
-    std::vector<Case> result;
-    for (Case& c : cases)
+    std::vector<CcdCase> result;
+    for (CcdCase& c : cases)
         if (!c.pairs.empty())
             result.push_back(std::move(c));
     if (!contacts.pairs.empty())
@@ -175,7 +175,7 @@ double quantile(std::vector<double> values, double share) {
     return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
-Row measure_single(const Case& c, const CcdSuiteOptions& options) {
+Row measure_single(const CcdCase& c, const CcdSuiteOptions& options) {
     std::vector<double> ours, theirs;
     std::array<double, 3> decided{};
     double missed = 0, false_hits = 0, peer_missed = 0, peer_false = 0;
@@ -274,9 +274,9 @@ Report run_ccd_suite(const CcdSuiteOptions& options) {
     report.suite = "ccd";
     report.notes.emplace_back("one test a call, one thread; a pair's time is the median of its "
                               "rounds, a row's the median of its pairs");
-    for (const Case& c : generated_cases(options))
+    for (const CcdCase& c : generated_cases(options))
         report.rows.push_back(measure_single(c, options));
-    for (const Case& c : file_cases(options.files))
+    for (const CcdCase& c : file_cases(options.files))
         report.rows.push_back(measure_single(c, options));
     for (const auto kind : {ElementaryKind::vertex_face, ElementaryKind::edge_edge})
         for (const double thickness : {0.0, kThickness})

@@ -90,6 +90,23 @@ private:
         return poses;
     }
 
+    /// Random poses in which the bodies overlap by 1e-4 to 1e-2, from where they touch.
+    std::vector<PosedPair> shallow_poses(const Convex& a, const Convex& b) {
+        std::vector<PosedPair> poses;
+        while (poses.size() < options_.poses) {
+            const Pose world_a{{}, random_rotation(random_)};
+            Pose world_b{combined(3, random_direction(random_), 0, {}), random_rotation(random_)};
+            const double depth = std::pow(10, -4 + 2 * unit(random_));
+            for (const double to : {0.2, -depth}) {
+                const ConvexGap now = abut::distance(a, world_a, b, world_b);
+                const Vec3 way = combined(1, now.point_b, -1, now.point_a);
+                world_b.translation = combined(1, world_b.translation, to / now.distance - 1, way);
+            }
+            poses.push_back({world_a, world_b});
+        }
+        return poses;
+    }
+
     /// Paths of 250 steps: b rotates by one degree per step, and moves by 0.01 on a circle around
     /// a.
     std::vector<PosedPair> path_poses(double radius) {
@@ -115,7 +132,7 @@ private:
     }
 
     /// Paths of 250 steps: b rotates by half a degree per step, slides as far around a, and keeps
-    /// the gap.
+    /// the gap, or the depth if it is negative.
     std::vector<PosedPair> sliding_poses(const Convex& a, const Convex& b, double gap) {
         std::vector<PosedPair> poses;
         while (poses.size() < options_.poses) {
@@ -232,12 +249,19 @@ private:
                     return abut::penetration(a, p.a, b, p.b).depth;
                 },
                 &ConvexPeer::penetration, {});
-        compare(name + ", penetration, coherent", a, b, path_poses(0.5),
-                [&](const PosedPair& p, std::size_t index) {
-                    if (index % kSteps == 0)
-                        warm_start = {};
-                    return abut::penetration(a, p.a, b, p.b, {.warm_start = &warm_start}).depth;
+        compare(name + ", penetration, shallow", a, b, shallow_poses(a, b),
+                [&](const PosedPair& p, std::size_t /*index*/) {
+                    return abut::penetration(a, p.a, b, p.b).depth;
                 },
+                &ConvexPeer::penetration, {});
+        const auto warm_depth = [&](const PosedPair& p, std::size_t index) {
+            if (index % kSteps == 0)
+                warm_start = {};
+            return abut::penetration(a, p.a, b, p.b, {.warm_start = &warm_start}).depth;
+        };
+        compare(name + ", penetration, sliding at 0.003", a, b, sliding_poses(a, b, -3e-3),
+                warm_depth, &ConvexPeer::penetration, {});
+        compare(name + ", penetration, coherent", a, b, path_poses(0.5), warm_depth,
                 &ConvexPeer::penetration, {});
     }
 

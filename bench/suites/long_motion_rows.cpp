@@ -15,7 +15,7 @@ namespace abut::bench {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A grid of nu x nv squares of two triangles each. In: point(u, v), with u and v in [0, 1].
 template <typename Point>
@@ -34,13 +34,13 @@ Mesh surface(std::uint32_t nu, std::uint32_t nv, const Point& point) {
 }
 Mesh ball(std::uint32_t around, std::uint32_t rings) {
     return surface(around, rings, [](double u, double v) {
-        return Vec3{std::sin(kPi * v) * std::cos(2 * kPi * u),
-                    std::sin(kPi * v) * std::sin(2 * kPi * u), std::cos(kPi * v)};
+        return Vec3{std::sin(pi * v) * std::cos(2 * pi * u),
+                    std::sin(pi * v) * std::sin(2 * pi * u), std::cos(pi * v)};
     });
 }
 Mesh cylinder(double radius, std::uint32_t sides) {
     return surface(sides, 1, [&](double u, double v) {
-        return Vec3{radius * std::cos(2 * kPi * u), radius * std::sin(2 * kPi * u), 4 * v - 2};
+        return Vec3{radius * std::cos(2 * pi * u), radius * std::sin(2 * pi * u), 4 * v - 2};
     });
 }
 Mesh floor_at(double height, double half, std::uint32_t squares) {
@@ -64,7 +64,7 @@ Motion spin(const Vec3& w, const Vec3& velocity = {}) {
     return {{}, {}, velocity, w};
 }
 
-struct Case {
+struct LongMotionCase {
     std::string name;
     Mesh mesh_a;
     Motion motion_a;
@@ -73,7 +73,7 @@ struct Case {
     double tolerance;
 };
 
-Row measure(const Case& c, int rounds) {
+Row measure(const LongMotionCase& c, int rounds) {
     const Model a(c.mesh_a), b(c.mesh_b);
     std::vector<double> seconds;
     Impact impact;
@@ -93,7 +93,7 @@ Row measure(const Case& c, int rounds) {
 
 std::vector<Row> long_motion_rows(int rounds) {
     std::vector<Row> rows;
-    const auto add = [&](const Case& c) { rows.push_back(measure(c, rounds)); };
+    const auto add = [&](const LongMotionCase& c) { rows.push_back(measure(c, rounds)); };
     const Pose beside{{0.3, 4, 2}, {1, 0, 0, 0}};
     const Motion still = Motion::fixed({}), at_side = Motion::fixed(beside);
     const Motion towards{beside, beside.translation, {0.1, -1, 0.2}, {1, 2, 3}};
@@ -117,7 +117,7 @@ std::vector<Row> long_motion_rows(int rounds) {
         for (const double tolerance : {1e-9, 2 * gap})
             add({fmt::format("cylinders of 32 sides turn {:g} apart, tolerance {:g}", gap,
                              tolerance),
-                 cylinder(1, 32), spin({0, 0, -2}), cylinder(std::cos(kPi / 32) - gap, 32),
+                 cylinder(1, 32), spin({0, 0, -2}), cylinder(std::cos(pi / 32) - gap, 32),
                  spin({0, 0, 3}, {0, 0, 0.1}), tolerance});
     return rows;
 }

@@ -4,6 +4,7 @@
 #include "measure.h"
 #include "peers/peer_manifolds.h"
 #include "suite.h"
+#include "suites/mesh_world_rows.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -23,9 +24,9 @@ struct ManifoldSuiteOptions {
     bool alone = false;
     std::string only;
     std::uint64_t seed = 1;
+    MeshWorldOptions meshes;
 };
 
-constexpr double kMilliseconds = 1e3;
 constexpr double kMargin = 0.02; ///< Bullet's contact breaking threshold
 
 /// Bodies, and their poses in the first step. Each moves a little in every step.
@@ -120,7 +121,7 @@ Row measure_scene(ContactScene scene, SceneMaker& maker, const ManifoldSuiteOpti
     std::vector<BodyId> ids;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
         ids.push_back(add_to(world, scene.bodies[i], scene.poses[i]));
-    const auto peer = options.alone ? nullptr : make_bullet_contacts(scene.bodies);
+    const auto peer = options.alone ? nullptr : make_bullet_manifolds(scene.bodies);
     std::vector<double> ours, theirs;
     std::size_t pairs = 0, points = 0, peer_points = 0;
     for (int step = -3; step < options.steps; ++step) { // three steps to warm up
@@ -159,7 +160,8 @@ Row measure_scene(ContactScene scene, SceneMaker& maker, const ManifoldSuiteOpti
 Report run_manifold_suite(const ManifoldSuiteOptions& options) {
     Report report;
     report.suite = "manifolds";
-    report.notes.push_back("a step moves all bodies and finds all contacts; the margin is 0.02");
+    report.notes.push_back(
+        "a step moves all bodies and finds all contacts; the margin is 0.02, and 0 for meshes");
     SceneMaker maker(options);
     std::vector<ContactScene> scenes;
     scenes.push_back(maker.stacks());
@@ -169,6 +171,11 @@ Report run_manifold_suite(const ManifoldSuiteOptions& options) {
     for (ContactScene& scene : scenes)
         if (scene.name.find(options.only) != std::string::npos)
             report.rows.push_back(measure_scene(std::move(scene), maker, options));
+    if (std::string("meshes").find(options.only) != std::string::npos) {
+        MeshWorldOptions meshes = options.meshes;
+        meshes.bodies = options.bodies, meshes.alone = options.alone;
+        add_mesh_world_rows(report, meshes);
+    }
     return report;
 }
 
@@ -177,6 +184,11 @@ const Suite kManifoldSuite("manifolds", "Contact manifolds of a World, against B
                                const auto options = std::make_shared<ManifoldSuiteOptions>();
                                suite.add_option("--bodies", options->bodies, "In each case");
                                suite.add_option("--steps", options->steps, "In each case");
+                               suite.add_option("--meshes", options->meshes.files,
+                                                "Meshes of about 2,000 triangles, in place of "
+                                                "boulders");
+                               suite.add_option("--spacings", options->meshes.spacings,
+                                                "Of the meshes, whose boxes have a diagonal of 1");
                                suite.add_flag("--alone", options->alone, "Without peers");
                                add_only(suite, options->only);
                                suite.add_option("--seed", options->seed, "Of bodies and poses");

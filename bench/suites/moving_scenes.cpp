@@ -1,5 +1,7 @@
 #include "suites/moving_scenes.h"
 
+#include "simulator/rotation.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,29 +13,16 @@ namespace abut::bench {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using simulation::Quaternion, simulation::product;
+using std::numbers::pi;
 
 Vec3 sum(const Vec3& a, const Vec3& b, double t = 1) {
     return {a.x + t * b.x, a.y + t * b.y, a.z + t * b.z};
 }
 
-using Quaternion = std::array<double, 4>;
-
-Quaternion product(const Quaternion& p, const Quaternion& q) {
-    return {p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
-            p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
-            p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1],
-            p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0]};
-}
 /// The rotation by |turn| radians about turn.
 Quaternion rotation(const Vec3& turn) {
-    const double angle = std::sqrt(turn.x * turn.x + turn.y * turn.y + turn.z * turn.z);
-    const double s = angle > 0 ? std::sin(angle / 2) / angle : 0.5;
-    return {std::cos(angle / 2), s * turn.x, s * turn.y, s * turn.z};
-}
-Vec3 rotated(const Quaternion& q, const Vec3& v) {
-    const Quaternion r = product(product(q, {0, v.x, v.y, v.z}), {q[0], -q[1], -q[2], -q[3]});
-    return {r[1], r[2], r[3]};
+    return simulation::rotated({1, 0, 0, 0}, turn);
 }
 
 /// Joins a grid of points, closed in both directions, by two triangles a cell.
@@ -53,7 +42,7 @@ Mesh torus(double radius, double tube, std::uint32_t rows, std::uint32_t columns
     Mesh mesh;
     for (std::uint32_t i = 0; i < rows; ++i)
         for (std::uint32_t k = 0; k < columns; ++k) {
-            const double u = 2 * kPi * i / rows, v = 2 * kPi * k / columns;
+            const double u = 2 * pi * i / rows, v = 2 * pi * k / columns;
             const double r = radius + tube * std::cos(v);
             mesh.positions.push_back({r * std::cos(u), r * std::sin(u), tube * std::sin(v)});
         }
@@ -68,7 +57,7 @@ Mesh gear(int teeth, double root, double tip, double bore, double width) {
     std::uint32_t rows = 0;
     for (int tooth = 0; tooth < teeth; ++tooth)
         for (std::size_t k = 0; k < kShares.size(); ++k, ++rows) {
-            const double u = 2 * kPi * (tooth + kShares[k]) / teeth;
+            const double u = 2 * pi * (tooth + kShares[k]) / teeth;
             const double r = k >= 3 && k <= 6 ? tip : root;
             for (const auto& [radius, z] : {std::pair(bore, -width), std::pair(r, -width),
                                             std::pair(r, width), std::pair(bore, width)})
@@ -148,7 +137,7 @@ public:
         for (int chain = 0; chain < kChains; ++chain)
             for (int i = 0; i < kRings; ++i) {
                 const Vec3 home{1.35 * i, 4.0 * chain, 0};
-                const Quaternion turned = rotation({i % 2 == 0 ? 0 : kPi / 2, 0, 0});
+                const Quaternion turned = rotation({i % 2 == 0 ? 0 : pi / 2, 0, 0});
                 bodies_.push_back({world.add(model, Pose{home, turned}), {home, turned}, {}, {}});
                 homes_.push_back(home);
             }
@@ -194,7 +183,7 @@ public:
         const Model models[]{Model(gear(kTeeth, 0.9, 1.06, 0.3, 0.1)),
                              Model(gear(kTeeth, 0.9, 1.06, 0.3, 0.09))};
         for (int i = 0; i < kGears; ++i) {
-            const double start = i % 2 == 0 ? 0.0 : -0.4 / kTeeth * 2 * kPi;
+            const double start = i % 2 == 0 ? 0.0 : -0.4 / kTeeth * 2 * pi;
             const Pose pose{{2.0 * i, 0, 0}, rotation({0, 0, start})};
             const double speed = i % 2 == 0 ? kSpeed : -kSpeed;
             bodies_.push_back({world.add(models[i % 2], pose), pose, {}, {0, 0, speed}});
@@ -227,14 +216,14 @@ public:
           }}) {
         Mesh cell;
         for (int i = 0; i < 12; ++i) // posts around the arm
-            add_box(cell, {1.6 * std::cos(i * kPi / 6), 1.6 * std::sin(i * kPi / 6), 0});
+            add_box(cell, {1.6 * std::cos(i * pi / 6), 1.6 * std::sin(i * pi / 6), 0});
         world.add(Model(cell), Pose{}, {.is_static = true});
         // A link is a capsule-like tube along z.
         Mesh link;
         constexpr std::uint32_t kRows = 24, kColumns = 40;
         for (std::uint32_t i = 0; i < kRows; ++i)
             for (std::uint32_t k = 0; k < kColumns; ++k) {
-                const double u = 2 * kPi * i / kRows, v = 2 * kPi * k / kColumns;
+                const double u = 2 * pi * i / kRows, v = 2 * pi * k / kColumns;
                 const double r = 0.05 + 0.03 * std::cos(v);
                 link.positions.push_back(
                     {r * std::cos(u), r * std::sin(u), kLength * (0.5 - 0.4 * std::sin(v))});
@@ -272,7 +261,7 @@ private:
         constexpr std::uint32_t kRows = 20;
         for (std::uint32_t i = 0; i < kRows; ++i)
             for (std::uint32_t k = 0; k < 20; ++k) {
-                const double u = 2 * kPi * i / kRows, v = 2 * kPi * k / 20;
+                const double u = 2 * pi * i / kRows, v = 2 * pi * k / 20;
                 const double r = 0.08 + 0.02 * std::cos(v);
                 mesh.positions.push_back(
                     sum(foot, {r * std::cos(u), r * std::sin(u), 1 + 1.2 * std::sin(v)}));
@@ -289,7 +278,9 @@ private:
         Pose pose{{0, 0, 0.1}, {1, 0, 0, 0}};
         for (std::size_t i = 0; i <= link; ++i) {
             if (i > 0)
-                pose.translation = sum(pose.translation, rotated(pose.rotation, {0, 0, kLength}));
+                pose.translation =
+                    sum(pose.translation,
+                        simulation::rotation_matrix(pose.rotation) * Vec3{0, 0, kLength});
             const double angle = kSwing * std::sin(kRate / kSwing * t + static_cast<double>(i));
             pose.rotation = product(pose.rotation, rotation(i == 0       ? Vec3{0, 0, angle}
                                                             : i % 2 == 1 ? Vec3{angle, 0, 0}
@@ -311,9 +302,9 @@ std::vector<NamedScene> moving_scenes(std::uint64_t seed) {
             scenes.push_back(
                 {fmt::format("300 tori in a box of {:.0f}{}", side, spin ? ", spinning" : ""),
                  [=] { return std::make_unique<Tori>(side, spin, seed); }});
-    for (const auto& [period, often] :
-         {std::pair(60, "4 times a second"), std::pair(240, "once a second")})
-        scenes.push_back({fmt::format("10 chains of 20 rings, pushed {}", often),
+    for (const int period : {60, 240})
+        scenes.push_back({fmt::format("10 chains of 20 rings, pushed {}",
+                                      period == 60 ? "4 times a second" : "once a second"),
                           [=] { return std::make_unique<Chains>(period, seed); }});
     scenes.push_back({"20 gears in a train", [] { return std::make_unique<Gears>(); }});
     scenes.push_back({"robot in its cell", [] { return std::make_unique<RobotCell>(); }});

@@ -41,7 +41,7 @@ struct PiecesSuiteOptions {
 
 enum class Ask : std::uint8_t { distance, within, first_contact, penetration };
 
-struct Case {
+struct PiecesCase {
     const char* name = "";
     Ask ask = Ask::distance;
     Regime regime = Regime::separated;
@@ -49,17 +49,17 @@ struct Case {
     [[nodiscard]] bool coherent() const { return small_steps || regime == Regime::path; }
 };
 constexpr std::array kCases{
-    Case{"distance, separated", Ask::distance, Regime::separated},
-    Case{"distance, graze out", Ask::distance, Regime::graze_out},
-    Case{"distance, graze in", Ask::distance, Regime::graze_in},
-    Case{"distance, deep", Ask::distance, Regime::deep},
-    Case{"distance, coherent path", Ask::distance, Regime::path},
-    Case{"distance, small steps", Ask::distance, Regime::separated, true},
-    Case{"within 0.1, separated", Ask::within, Regime::separated},
-    Case{"first contact, graze in", Ask::first_contact, Regime::graze_in},
-    Case{"first contact, graze out", Ask::first_contact, Regime::graze_out},
-    Case{"penetration, graze in", Ask::penetration, Regime::graze_in},
-    Case{"penetration, deep", Ask::penetration, Regime::deep},
+    PiecesCase{"distance, separated", Ask::distance, Regime::separated},
+    PiecesCase{"distance, graze out", Ask::distance, Regime::graze_out},
+    PiecesCase{"distance, graze in", Ask::distance, Regime::graze_in},
+    PiecesCase{"distance, deep", Ask::distance, Regime::deep},
+    PiecesCase{"distance, coherent path", Ask::distance, Regime::path},
+    PiecesCase{"distance, small steps", Ask::distance, Regime::separated, true},
+    PiecesCase{"within 0.1, separated", Ask::within, Regime::separated},
+    PiecesCase{"first contact, graze in", Ask::first_contact, Regime::graze_in},
+    PiecesCase{"first contact, graze out", Ask::first_contact, Regime::graze_out},
+    PiecesCase{"penetration, graze in", Ask::penetration, Regime::graze_in},
+    PiecesCase{"penetration, deep", Ask::penetration, Regime::deep},
 };
 constexpr double kTolerance = 0.1;
 
@@ -142,7 +142,7 @@ public:
 
     void run() {
         add_build_row(scene_.name + ", build of the first", scene_.a, options_.rounds, report_);
-        for (const Case& c : kCases)
+        for (const PiecesCase& c : kCases)
             if (std::string_view(c.name).find(options_.only) != std::string_view::npos)
                 run(c);
     }
@@ -150,7 +150,7 @@ public:
 private:
     using Query = std::function<double(const PosedPair&)>;
 
-    void run(const Case& c) {
+    void run(const PiecesCase& c) {
         PiecesWarmStart warm_start;
         WarmStart tree_warm_start;
         const auto start_path = [&] { warm_start = {}, tree_warm_start = {}; };
@@ -195,11 +195,11 @@ private:
                                            : RigidQuery::distance;
     }
 
-    [[nodiscard]] const std::vector<PosedPair>& poses_of(const Case& c) const {
+    [[nodiscard]] const std::vector<PosedPair>& poses_of(const PiecesCase& c) const {
         return c.small_steps ? steps_ : scene_.of(c.regime);
     }
 
-    RigidPeer* best_fcl(const Case& c) {
+    RigidPeer* best_fcl(const PiecesCase& c) {
         RigidPeer* best = nullptr;
         double least = 0;
         const auto& poses = poses_of(c);
@@ -217,8 +217,9 @@ private:
         return best;
     }
 
-    void compare(const Case& c, const std::string& peer, const std::function<void()>& start_path,
-                 const Query& ours, const Query& theirs, double& hull_pairs) {
+    void compare(const PiecesCase& c, const std::string& peer,
+                 const std::function<void()>& start_path, const Query& ours, const Query& theirs,
+                 double& hull_pairs) {
         const auto& poses = poses_of(c);
         std::vector<double> our_answers(poses.size()), their_answers(poses.size());
         const auto work = [&](const Query& query, std::vector<double>& answers) {

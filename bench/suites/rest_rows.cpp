@@ -16,7 +16,6 @@ namespace abut::bench {
 
 namespace {
 
-constexpr double kMilliseconds = 1e3;
 constexpr std::uint32_t kCells = 141; ///< along a side of the cloth: 39,762 triangles
 
 std::vector<Vec3> waving(double phase) {

@@ -5,6 +5,7 @@
 #include "placement.h"
 #include "scenes/deforming/frame.h"
 #include "scenes/random.h"
+#include "simulator/rotation.h"
 
 #include <cmath>
 #include <numbers>
@@ -15,14 +16,7 @@ namespace {
 
 using scenes::add;
 using scenes::scaled;
-using Quaternion = std::array<double, 4>;
-
-Quaternion product(const Quaternion& p, const Quaternion& q) {
-    return {p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
-            p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
-            p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1],
-            p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0]};
-}
+using simulation::Quaternion, simulation::product;
 
 class PoseMaker {
 public:

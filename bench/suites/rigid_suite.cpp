@@ -9,6 +9,7 @@
 #include "suite.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
@@ -29,7 +30,7 @@ struct RigidSuiteOptions {
     std::size_t poses = 500; ///< in each regime
     int rounds = 3;
     bool alone = false;   ///< without peers
-    bool volumes = false; ///< also with every other kind of bounding volume
+    bool volumes = false; ///< also with every other kind of bounding volume, and with some mixed
     std::string only;     ///< runs only the cases whose name contains this
     std::uint64_t seed = 1;
 };
@@ -42,25 +43,30 @@ double sum(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-struct Case {
+struct RigidCase {
     const char* name = "";
     RigidQuery query = RigidQuery::first_contact;
     Regime regime = Regime::deep;
     double tolerance = 0;
 };
 constexpr std::array kCases{
-    Case{"first contact, deep", RigidQuery::first_contact, Regime::deep},
-    Case{"first contact, graze in", RigidQuery::first_contact, Regime::graze_in},
-    Case{"first contact, graze out", RigidQuery::first_contact, Regime::graze_out},
-    Case{"all contacts, deep", RigidQuery::all_contacts, Regime::deep},
-    Case{"all contacts, graze in", RigidQuery::all_contacts, Regime::graze_in},
-    Case{"distance, graze out", RigidQuery::distance, Regime::graze_out},
-    Case{"distance, separated", RigidQuery::distance, Regime::separated},
-    Case{"distance, coherent path", RigidQuery::distance, Regime::path},
-    Case{"within 0.005, graze out", RigidQuery::within, Regime::graze_out, kNear},
-    Case{"within 0.1, graze out", RigidQuery::within, Regime::graze_out, kFar},
-    Case{"within 0.1, separated", RigidQuery::within, Regime::separated, kFar},
+    RigidCase{"first contact, deep", RigidQuery::first_contact, Regime::deep},
+    RigidCase{"first contact, graze in", RigidQuery::first_contact, Regime::graze_in},
+    RigidCase{"first contact, graze out", RigidQuery::first_contact, Regime::graze_out},
+    RigidCase{"all contacts, deep", RigidQuery::all_contacts, Regime::deep},
+    RigidCase{"all contacts, graze in", RigidQuery::all_contacts, Regime::graze_in},
+    RigidCase{"distance, graze out", RigidQuery::distance, Regime::graze_out},
+    RigidCase{"distance, separated", RigidQuery::distance, Regime::separated},
+    RigidCase{"distance, coherent path", RigidQuery::distance, Regime::path},
+    RigidCase{"within 0.005, graze out", RigidQuery::within, Regime::graze_out, kNear},
+    RigidCase{"within 0.1, graze out", RigidQuery::within, Regime::graze_out, kFar},
+    RigidCase{"within 0.1, separated", RigidQuery::within, Regime::separated, kFar},
 };
+
+/// Kinds of two models: a few of the swept spheres, and two that only boxes can compare.
+constexpr std::array kMixedKinds{
+    std::array{Volume::sphere, Volume::rss}, std::array{Volume::lss, Volume::rss},
+    std::array{Volume::ssv, Volume::rss}, std::array{Volume::obb, Volume::rss}};
 
 /// The times of each pose, and their median over the rounds.
 class PoseTimes {
@@ -87,9 +93,9 @@ class RigidSuite {
 public:
     /// In: alone, to leave out the peers when kinds of volumes are compared with each other.
     RigidSuite(const RigidSuiteOptions& options, const RigidScene& scene, Report& report,
-               Volume volume, bool alone)
-        : options_(options), scene_(scene), report_(report), volume_(volume),
-          a_(scene.a, {.volume = volume}), b_(scene.b, {.volume = volume}) {
+               std::array<Volume, 2> kinds, bool alone)
+        : options_(options), scene_(scene), report_(report), kinds_(kinds),
+          a_(scene.a, {.volume = kinds[0]}), b_(scene.b, {.volume = kinds[1]}) {
         if (alone)
             return;
         peers_ = make_fcl_peers(scene.a, scene.b);
@@ -101,14 +107,14 @@ public:
     }
 
     void run() {
-        for (const Case& c : kCases)
+        for (const RigidCase& c : kCases)
             if (options_.only.empty() ||
                 std::string_view(c.name).find(options_.only) != std::string_view::npos)
                 run(c);
     }
 
 private:
-    Answer ours(const Case& c, const PosedPair& poses, WarmStart* warm_start) {
+    Answer ours(const RigidCase& c, const PosedPair& poses, WarmStart* warm_start) {
         switch (c.query) {
         case RigidQuery::first_contact:
         case RigidQuery::all_contacts: {
@@ -127,7 +133,7 @@ private:
     }
 
     /// FCL's fastest volume for the case, on a sample of the poses.
-    RigidPeer* best_fcl(const Case& c) {
+    RigidPeer* best_fcl(const RigidCase& c) {
         RigidPeer* best = nullptr;
         double least = 0;
         std::string line = fmt::format("{}, {}: FCL on a sample, us:", scene_.name, c.name);
@@ -155,7 +161,7 @@ private:
         return best;
     }
 
-    void run(const Case& c) {
+    void run(const RigidCase& c) {
         std::vector<RigidPeer*> opponents;
         if (RigidPeer* fcl = best_fcl(c))
             opponents.push_back(fcl);
@@ -168,7 +174,7 @@ private:
             compare(c, peer);
     }
 
-    void compare(const Case& c, RigidPeer* peer) {
+    void compare(const RigidCase& c, RigidPeer* peer) {
         const auto& poses = scene_.of(c.regime);
         PoseTimes our_times(poses.size()), their_times(poses.size());
         std::vector<Answer> our_answers(poses.size());
@@ -194,8 +200,11 @@ private:
                 }
             }
 
-        const std::string volume =
-            volume_ == Volume::automatic ? "" : fmt::format(", {}", to_string(volume_));
+        std::string volume;
+        if (kinds_[0] != kinds_[1])
+            volume = fmt::format(", {} with {}", to_string(kinds_[0]), to_string(kinds_[1]));
+        else if (kinds_[0] != Volume::automatic)
+            volume = fmt::format(", {}", to_string(kinds_[0]));
         Row row{scene_.name + ", " + c.name + volume, our_times.median_us(), {}, {}, "us", 1, {}};
         if (peer != nullptr)
             row.peer = peer->name(), row.theirs = their_times.median_us();
@@ -216,7 +225,7 @@ private:
 
     /// Counts disagreements. FCL is not exact: contacts may differ if triangles almost touch.
     /// Distances should not differ.
-    static std::size_t count_disagreements(const Case& c, const std::vector<Answer>& ours,
+    static std::size_t count_disagreements(const RigidCase& c, const std::vector<Answer>& ours,
                                            const std::vector<double>& theirs) {
         std::size_t count = 0;
         for (std::size_t i = 0; i < ours.size(); ++i)
@@ -228,7 +237,7 @@ private:
     const RigidSuiteOptions& options_;
     const RigidScene& scene_;
     Report& report_;
-    Volume volume_;
+    std::array<Volume, 2> kinds_; ///< of both models
     Model a_, b_;
     std::vector<std::unique_ptr<RigidPeer>> peers_;
     /// Subtracted from each time: the shortest queries take no longer than reading the clock.
@@ -298,14 +307,19 @@ Report run_rigid_suite(const RigidSuiteOptions& options) {
             run_build(name_a, scene.a, options.rounds, Volume::automatic, report);
             run_build(name_b, scene.b, options.rounds, Volume::automatic, report);
         }
-        RigidSuite(options, scene, report, Volume::automatic, options.alone).run();
-        if (options.volumes)
-            for (const Volume volume : kVolumes) {
-                if (volume == Volume::automatic)
-                    continue;
+        RigidSuite(options, scene, report, {Volume::automatic, Volume::automatic}, options.alone)
+            .run();
+        if (!options.volumes)
+            return;
+        for (const Volume volume : kVolumes) {
+            if (volume == Volume::automatic)
+                continue;
+            if (options.only.empty() || options.only == "build")
                 run_build(name_a, scene.a, 1, volume, report);
-                RigidSuite(options, scene, report, volume, true).run();
-            }
+            RigidSuite(options, scene, report, {volume, volume}, true).run();
+        }
+        for (const auto& kinds : kMixedKinds)
+            RigidSuite(options, scene, report, kinds, true).run();
     };
     const auto stem = [](const std::string& file) {
         return std::filesystem::path(file).stem().string();
@@ -322,22 +336,22 @@ Report run_rigid_suite(const RigidSuiteOptions& options) {
     return report;
 }
 
-const Suite kRigidSuite("rigid",
-                        "Queries on pairs of models in four regimes, against FCL, CGAL and Embree",
-                        [](CLI::App& suite) -> RunSuite {
-                            const auto options = std::make_shared<RigidSuiteOptions>();
-                            suite.add_option("files", options->files, "Model files, two a pair");
-                            suite.add_option("--generated", options->generated,
-                                             "Pairs of generated models of so many triangles each");
-                            suite.add_option("--poses", options->poses, "In each regime");
-                            add_rounds(suite, options->rounds);
-                            add_only(suite, options->only);
-                            suite.add_flag("--alone", options->alone, "Without peers");
-                            suite.add_flag("--volumes", options->volumes,
-                                           "Also with every kind of bounding volume");
-                            suite.add_option("--seed", options->seed, "Of the poses");
-                            return [options] { return run_rigid_suite(*options); };
-                        });
+const Suite
+    kRigidSuite("rigid", "Queries on pairs of models in four regimes, against FCL, CGAL and Embree",
+                [](CLI::App& suite) -> RunSuite {
+                    const auto options = std::make_shared<RigidSuiteOptions>();
+                    suite.add_option("files", options->files, "Model files, two a pair");
+                    suite.add_option("--generated", options->generated,
+                                     "Pairs of generated models of so many triangles each");
+                    suite.add_option("--poses", options->poses, "In each regime");
+                    add_rounds(suite, options->rounds);
+                    add_only(suite, options->only);
+                    suite.add_flag("--alone", options->alone, "Without peers");
+                    suite.add_flag("--volumes", options->volumes,
+                                   "Also with every kind of bounding volume, and with mixed ones");
+                    suite.add_option("--seed", options->seed, "Of the poses");
+                    return [options] { return run_rigid_suite(*options); };
+                });
 
 } // namespace
 

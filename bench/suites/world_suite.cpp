@@ -44,7 +44,8 @@ constexpr std::array kLayouts{Layout{BoxLayout::uniform, "uniform"},
                               Layout{BoxLayout::crossed, "uniform and a hundred around the world"},
                               Layout{BoxLayout::planes, "on ten floors"},
                               Layout{BoxLayout::sizes, "of many sizes"},
-                              Layout{BoxLayout::piles, "in piles"}};
+                              Layout{BoxLayout::piles, "in piles"},
+                              Layout{BoxLayout::heap, "in a heap"}};
 
 struct MotionName {
     BoxMotion motion;
