@@ -18,8 +18,9 @@ install(DIRECTORY include/abut DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT
 
 # Programs.
 install(TARGETS abut_command DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
+# The viewer is left out if it was not built.
 if(TARGET abut_walk)
-    install(TARGETS abut_walk DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT walk)
+    install(TARGETS abut_walk RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT walk OPTIONAL)
 endif()
 install(DIRECTORY ${PROJECT_BINARY_DIR}/documents/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT command
         PATTERN "abut-walk.1" EXCLUDE)
@@ -29,11 +30,11 @@ install(FILES ${PROJECT_BINARY_DIR}/documents/zsh/_abut DESTINATION ${CMAKE_INST
         COMPONENT command)
 if(TARGET abut_walk)
     install(FILES ${PROJECT_BINARY_DIR}/documents/man1/abut-walk.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
-            COMPONENT walk)
+            COMPONENT walk OPTIONAL)
     install(FILES ${PROJECT_BINARY_DIR}/documents/bash/abut-walk
-            DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT walk)
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT walk OPTIONAL)
     install(FILES ${PROJECT_BINARY_DIR}/documents/zsh/_abut-walk
-            DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT walk)
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT walk OPTIONAL)
 endif()
 install(TARGETS abut_reader DESTINATION ${programs} COMPONENT command)
 if(TARGET abut_mpi)

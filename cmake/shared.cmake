@@ -12,6 +12,12 @@ set(ABUT_RENDER_LIBRARY abut_render)
 if(ABUT_SHARED)
     set(ABUT_LIBRARY abut_shared)
     set(ABUT_RENDER_LIBRARY abut_render_shared)
+    # Installed programs, helpers and the Python module find the libraries by their own place, so that the folder
+    # may be moved. In /usr the linker knows the place.
+    if(NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+        set(CMAKE_INSTALL_RPATH $ORIGIN $ORIGIN/../${CMAKE_INSTALL_LIBDIR} $ORIGIN/../../${CMAKE_INSTALL_LIBDIR}
+                                $ORIGIN/../../..)
+    endif()
 endif()
 
 # The libraries of components by name: Abut::NAME, which is one of Abut::NAME_static and Abut::NAME_shared.

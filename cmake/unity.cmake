@@ -2,8 +2,11 @@
 #
 # A full build then takes less than half of the processor time, because headers are read once for
 # each batch. Rebuilding after a change of one source takes longer. All sources of a batch are in
-# one folder or its sub-folders: names in anonymous namespaces are unique within these only.
+# one folder beside the CMakeLists.txt, or in its sub-folders: names in anonymous namespaces are
+# unique within these. With SUBFOLDERS_APART, they are unique within each sub-folder only, and a
+# batch has no sources of different sub-folders.
 function(abut_compile_in_batches target)
+    cmake_parse_arguments(arg "SUBFOLDERS_APART" "" "" ${ARGN})
     if(NOT ABUT_UNITY)
         return()
     endif()
@@ -20,7 +23,11 @@ function(abut_compile_in_batches target)
             continue()
         endif()
         cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE folder)
-        string(REGEX REPLACE "/.*" "" folder "${folder}")
+        if(arg_SUBFOLDERS_APART)
+            cmake_path(GET folder PARENT_PATH folder)
+        else()
+            string(REGEX REPLACE "/.*" "" folder "${folder}")
+        endif()
         string(MAKE_C_IDENTIFIER "${folder}" folder)
         math(EXPR batch "0${count_${folder}}")
         math(EXPR count_${folder} "${batch} + 1")

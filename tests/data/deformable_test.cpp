@@ -61,7 +61,7 @@ TEST_P(Deforming, EverySchemeFindsEveryTruePairAndNoOther) {
     ASSERT_EQ(vertex_face.size(), step_.vertex_face);
     const Mesh start = read_frame(start_), end = read_frame(end_);
     for (const Scheme scheme : {Scheme::representative, Scheme::database, Scheme::markup,
-                                Scheme::basic, Scheme::features}) {
+                                Scheme::basic, Scheme::features, Scheme::pairwise}) {
         SCOPED_TRACE(static_cast<int>(scheme));
         Deformable surface(start, {.scheme = scheme});
         surface.advance(end.positions);
@@ -122,7 +122,7 @@ TEST_P(Deforming, EveryEdgeThroughAFaceAtRest) {
     EXPECT_EQ(found.size(), step_.at_rest);
     std::size_t met = 0, pairs = 0;
     for_each_near_edge_and_face(surface.edges(), mesh, [&](std::uint32_t e, std::uint32_t f) {
-        const auto& [v, w] = surface.edges()[e];
+        const std::uint32_t v = surface.edges()[e][0], w = surface.edges()[e][1];
         const auto& face = mesh.triangles[f];
         if (std::any_of(face.begin(), face.end(), [&](auto i) { return i == v || i == w; }))
             return;

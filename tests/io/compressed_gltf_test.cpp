@@ -18,8 +18,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kFloat = 5126, kUnsignedInt = 5125, kUnsignedShort = 5123, kShort = 5122;
-
 /// A wavy sheet of triangles that share vertices.
 struct Sheet {
     std::vector<std::array<float, 3>> positions;

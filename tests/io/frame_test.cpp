@@ -12,7 +12,7 @@
 namespace abut::test {
 namespace {
 
-using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+using Faces = std::vector<std::array<std::uint32_t, 3>>;
 
 class Frames : public testing::Test {
 protected:
@@ -44,7 +44,7 @@ TEST_F(Frames, TheTetrahedronInEveryFormat) {
             const double stored_z = std::string(name) == "sample.obj" && z == 0.1F ? 0.1 : z;
             EXPECT_EQ(mesh.positions[i], (Vec3{x, y, stored_z})) << i;
         }
-        EXPECT_EQ(mesh.triangles, Triangles(kFaces.begin(), kFaces.end()));
+        EXPECT_EQ(mesh.triangles, Faces(kFaces.begin(), kFaces.end()));
     }
 }
 
@@ -57,7 +57,7 @@ TEST_F(Frames, OnlyPositionsIfTheTrianglesAreTheSame) {
         EXPECT_EQ(read_frame_positions(path, mesh.positions.size(), mesh.triangles),
                   mesh.positions);
         EXPECT_FALSE(read_frame_positions(path, mesh.positions.size() + 1, mesh.triangles));
-        Triangles others = mesh.triangles;
+        Faces others = mesh.triangles;
         std::swap(others[1][0], others[1][1]);
         EXPECT_FALSE(read_frame_positions(path, mesh.positions.size(), others));
         others = mesh.triangles;
@@ -77,7 +77,7 @@ TEST_F(Frames, VerticesAreNeitherJoinedNorLeftOut) {
     const std::vector<Vec3> positions{{0, 0, 0}, {0, 0, 0}, {1, 0, 0},
                                       {9, 9, 9}, {0, 1, 0}, {0, 1, -0.0}};
     const std::string lines = "0 0 0\n0 0 0\n1 0 0\n9 9 9\n0 1 0\n0 1 -0\n";
-    const Triangles triangles{{0, 2, 4}, {5, 2, 1}, {1, 1, 1}};
+    const Faces triangles{{0, 2, 4}, {5, 2, 1}, {1, 1, 1}};
     for (const Mesh& mesh : {read("a.ply", text_ply(6, lines, 3, "3 0 2 4\n3 5 2 1\n3 1 1 1\n")),
                              read("a.obj", "v 0 0 0\nv 0 0 0\nv 1 0 0\nv 9 9 9\nv 0 1 0\nv 0 1 -0\n"
                                            "f 1 3 5\nf 6 3 2\nf 2 2 2\n")}) {
@@ -94,11 +94,10 @@ TEST_F(Frames, PolygonsAreFansWhateverTheirShape) {
         const std::string lines = std::string("0 0 0\n") + second + "\n2 2 0\n0 2 0\n-1 1 0\n";
         const Mesh mesh =
             read("a.ply", text_ply(5, lines, 5, "5 0 1 2 3 4\n0\n1 0\n2 0 1\n4 3 0 1 2\n"));
-        EXPECT_EQ(mesh.triangles,
-                  (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {3, 0, 1}, {3, 1, 2}}));
+        EXPECT_EQ(mesh.triangles, (Faces{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {3, 0, 1}, {3, 1, 2}}));
     }
     EXPECT_EQ(read("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 2 3 4 1\n").triangles,
-              (Triangles{{1, 2, 3}, {1, 3, 0}}));
+              (Faces{{1, 2, 3}, {1, 3, 0}}));
 }
 
 TEST_F(Frames, NumbersOfTextAreRoundedToTheirType) {
@@ -119,7 +118,7 @@ TEST_F(Frames, EveryFormOfObj) {
     const Mesh mesh = read("a.OBJ", text);
     EXPECT_EQ(mesh.positions, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}}));
     EXPECT_EQ(mesh.triangles,
-              (Triangles{{0, 1, 2}, {0, 1, 2}, {0, 1, 2}, {0, 1, 2}, {0, 1, 3}, {3, 2, 1}}));
+              (Faces{{0, 1, 2}, {0, 1, 2}, {0, 1, 2}, {0, 1, 2}, {0, 1, 3}, {3, 2, 1}}));
 }
 
 /// Writes the data of a PLY file in one of its encodings.

@@ -11,6 +11,10 @@
 
 namespace abut::test {
 
+/// Component types of accessors.
+inline constexpr int kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123,
+                     kUnsignedInt = 5125, kFloat = 5126;
+
 /// Builds a glTF file from buffer views and accessors.
 class GltfBuilder {
 public:

@@ -14,9 +14,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123,
-              kUnsignedInt = 5125, kFloat = 5126;
-
 class GltfGeometry : public testing::Test {
 protected:
     Scene read(const GltfBuilder& builder) {

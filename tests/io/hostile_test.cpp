@@ -33,10 +33,6 @@ protected:
     json document_ = tetrahedron_document({{{"name", "n"}, {"mesh", 0}}}, {0});
 };
 
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
 TEST_F(Hostile, PathsThatCannotBeRead) {
     error_of(folder_.path("missing.glb"), ErrorCode::file_not_found);
     error_of(folder_.path("no/folder.obj"), ErrorCode::file_not_found);

@@ -1,7 +1,7 @@
 // Properties and relations of parts from IFC. Skipped without Node.js or web-ifc.
 
+#include "tests/io/ifc_folder.h"
 #include "tests/io/support.h"
-#include "tests/support/paths.h"
 
 #include <map>
 #include <set>
@@ -11,7 +11,6 @@
 namespace abut::test {
 namespace {
 
-const std::string kFolder = std::string(ABUT_SOURCE_DIR) + "/tests/io/";
 // The parts of house_4.ifc: lines #38, #58 and #66.
 const std::string kWall = "4WallOfTheTests0000001", kTable = "4TableOfTheTests000001",
                   kOther = "4TableOfTheTests000002";

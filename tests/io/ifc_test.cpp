@@ -1,7 +1,7 @@
 // IFC 2x3 and 4 through web-ifc. Skipped without Node.js or web-ifc.
 
+#include "tests/io/ifc_folder.h"
 #include "tests/io/support.h"
-#include "tests/support/paths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,12 +10,6 @@
 
 namespace abut::test {
 namespace {
-
-const std::string kFolder = std::string(ABUT_SOURCE_DIR) + "/tests/io/";
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 std::vector<std::array<Vec3, 3>> triangles_of(const Scene& scene, const Part& part) {
     Scene alone;
@@ -328,7 +322,7 @@ std::string on_map(const std::string& unit, const std::string& numbers) {
 }
 
 const std::string kMetre = "IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.)";
-constexpr const char* kWall = "4WallOfTheTests0000001"; // from (0, 0, 0) to (4, 0.2, 3) m
+constexpr const char* kWallId = "4WallOfTheTests0000001"; // from (0, 0, 0) to (4, 0.2, 3) m
 
 /// The corners of a box from (0, 0, 0) to `size`, rotated about z and moved.
 std::vector<Vec3> placed_box(const Vec3& size, const Vec3& offset, double cosine, double sine) {
@@ -360,14 +354,14 @@ TEST_F(Ifc, AProjectLiesOnItsMap) {
     const Scene scene = read_scene(file);
     EXPECT_EQ(scene.unit, 0.001);
     expect_corners(
-        scene, by_id(scene).at(kWall),
+        scene, by_id(scene).at(kWallId),
         placed_box({4, 0.2, 3}, {155000.1234, 5463000.5678, -1.5}, std::sqrt(0.75), 0.5));
     const auto parts = by_id(scene);
     EXPECT_EQ(parts.at("4TableOfTheTests000001").mesh, parts.at("4TableOfTheTests000002").mesh);
     ReadOptions options;
     options.map = false;
     const Scene plain = read_scene(file, options);
-    expect_box(bounds_of(plain, by_id(plain).at(kWall)), {0, 0, 0}, {4, 0.2, 3});
+    expect_box(bounds_of(plain, by_id(plain).at(kWallId)), {0, 0, 0}, {4, 0.2, 3});
     // Only the transforms differ from the file without a map.
     ASSERT_EQ(plain.meshes.size(), scene.meshes.size());
     for (std::size_t i = 0; i < plain.meshes.size(); ++i)
@@ -398,7 +392,7 @@ TEST_F(Ifc, UnitsAndScalesOfAMapAreApplied) {
               1}}) {
         SCOPED_TRACE(each.unit + " " + each.numbers);
         const Scene scene = read_scene(folder_.file("map.ifc", on_map(each.unit, each.numbers)));
-        expect_box(bounds_of(scene, by_id(scene).at(kWall)), {1000, 2000, 30},
+        expect_box(bounds_of(scene, by_id(scene).at(kWallId)), {1000, 2000, 30},
                    {1000 + 4 * each.scale, 2000 + 0.2 * each.scale, 30 + 3 * each.scale});
     }
 }
@@ -415,11 +409,11 @@ TEST_F(Ifc, FilesWithDifferentMapConversionsMeet) {
                  "#921=IFCAXIS2PLACEMENT3D(#920,#11,#50);\n#20=IFCLOCALPLACEMENT($,#921);");
     const Scene other = read_scene(folder_.file("other.ifc", text));
     const auto others = by_id(other);
-    const Part& part = others.at(kWall);
+    const Part& part = others.at(kWallId);
     expect_box(bounds_of(other, part), {155000, 5463000, 12}, {155004, 5463000.2, 15});
     // A cosine of 6e-17 counts as zero.
     const auto parts = by_id(one);
-    const auto& expected = parts.at(kWall).world_from_mesh.m;
+    const auto& expected = parts.at(kWallId).world_from_mesh.m;
     for (std::size_t i = 0; i < 9; ++i)
         EXPECT_NEAR(part.world_from_mesh.m.at(i), expected.at(i), 1e-15);
     for (std::size_t i = 9; i < 12; ++i)

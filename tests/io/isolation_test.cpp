@@ -30,10 +30,6 @@ protected:
     std::string model_ = folder_.file("model.dae", sample_files().at("sample.dae"));
 };
 
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
 TEST_F(Isolation, ACrashIsAnError) {
     EXPECT_TRUE(contains(fail_with("kill -SEGV $$\n", ErrorCode::reader_failed), "crashed"));
     EXPECT_TRUE(contains(fail_with("kill -ABRT $$\n", ErrorCode::reader_failed), "crashed"));

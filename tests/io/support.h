@@ -19,6 +19,10 @@
 
 namespace abut::test {
 
+inline bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
 /// A temporary folder, removed after the test.
 class TemporaryFolder {
 public:

@@ -22,14 +22,14 @@ struct Body {
     PlacedSolid placed;
 };
 
-struct Outcome {
+struct Meeting {
     std::vector<Contact> contacts;
     bool go_in = false;       ///< the solids interpenetrate
     LocalPenetration depth{}; ///< computed only if go_in
 };
 
-inline Outcome meeting(const Body& a, const Body& b, const DepthSearch& options = {}) {
-    Outcome m;
+inline Meeting meeting(const Body& a, const Body& b, const DepthSearch& options = {}) {
+    Meeting m;
     Counters counters;
     m.contacts = find_contacts(
         PlacedPair(a.model, a.placed.model().world(), b.model, b.placed.model().world()),

@@ -5,6 +5,7 @@
 #include "volume/kdop.h"
 #include "volume/obb.h"
 #include "volume/sphere.h"
+#include "volume/ssv.h"
 #include "volume/swept_sphere.h"
 
 #include <vector>

@@ -16,21 +16,21 @@ TEST(SceneFrames, EqualThoseOfTheLibrary) {
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
     const auto scene = make_deforming_scene("fracture", {.triangles = 1500, .seed = 3});
-    const nlohmann::json json = outcome.json();
-    ASSERT_EQ(json["files"].size(), 40U);
-    for (const auto& file : json["files"]) {
+    const nlohmann::json result = outcome.json();
+    ASSERT_EQ(result["files"].size(), 40U);
+    for (const auto& file : result["files"]) {
         const Mesh mesh = read_frame(file);
         EXPECT_EQ(mesh.positions, scene->mesh().positions);
         EXPECT_EQ(mesh.triangles, scene->mesh().triangles);
-        if (file != json["files"].back())
+        if (file != result["files"].back())
             scene->step();
     }
-    EXPECT_EQ(json["files"][39], folder / "out/fracture-0039.ply");
-    EXPECT_EQ(json["scene"], "fracture");
-    EXPECT_EQ(json["seed"], 3);
-    EXPECT_EQ(json["frames"], 40);
-    EXPECT_EQ(json["vertices"], scene->mesh().positions.size());
-    EXPECT_EQ(json["triangles"], scene->mesh().triangles.size());
+    EXPECT_EQ(result["files"][39], folder / "out/fracture-0039.ply");
+    EXPECT_EQ(result["scene"], "fracture");
+    EXPECT_EQ(result["seed"], 3);
+    EXPECT_EQ(result["frames"], 40);
+    EXPECT_EQ(result["vertices"], scene->mesh().positions.size());
+    EXPECT_EQ(result["triangles"], scene->mesh().triangles.size());
 }
 
 TEST(SceneFrames, AreNamedAfterTheScene) {

@@ -194,7 +194,8 @@ TEST_F(CcdCommand, WritesWhatTheLibraryFinds) {
     EXPECT_EQ(read_impacts(csv), expected);
 
     std::vector<std::vector<std::string>> choices{{"--threads", "1"}, {"--threads", "2"}};
-    for (const char* const scheme : {"representative", "database", "markup", "basic", "features"})
+    for (const char* const scheme :
+         {"representative", "database", "markup", "basic", "features", "pairwise"})
         for (const char* const culling : {"tree", "grid", "sweep"})
             choices.push_back({"--scheme", scheme, "--culling", culling});
     for (const char* const assignment :

@@ -160,10 +160,11 @@ TEST_F(TwoModelsTest, TheVolumeChangesTheWorkAndNotTheAnswer) {
     EXPECT_GT(distance, 0.5);
     std::set<std::uint64_t> work;
     for (const char* kind : {"automatic", "aabb", "sphere", "kdop14", "kdop18", "kdop26", "obb",
-                             "pss", "lss", "rss"}) {
+                             "pss", "lss", "rss", "ssv"}) {
         const Outcome one = run("distance", {"--volume", kind});
         ASSERT_EQ(one.status, 0) << one.err;
         EXPECT_NEAR(one.json()["distance"], distance, 1e-12);
+        EXPECT_EQ(one.json()["counters"]["volume"], kind);
         work.insert(one.json()["counters"]["volume_tests"].get<std::uint64_t>());
         EXPECT_EQ(run("collide", {"--volume", kind}).json()["contact"], false);
         EXPECT_EQ(run("within", {"--volume", kind, "--tolerance", "2"}).json()["within"], true);
