@@ -11,11 +11,12 @@ import statistics
 
 ROW = re.compile(r"^(?P<case>\S.*?) +(?P<ours>[\d.]+(?:e[+-]\d+)?) +(?P<theirs>[\d.]+(?:e[+-]\d+)?) +"
                  r"(?P<ratio>\d+\.\d+)  (?P<unit>\S+) +(?P<threads>\d+)  (?P<peer>\S.*)$")
-SUITE = re.compile(r"abut-bench (\w+)")
+SUITE = re.compile(r"abut-bench ([\w-]+)")
 LIBRARIES = ("FCL", "Bullet", "CGAL", "Embree", "Assimp")
 SUBJECTS = {
     "clash": "clashes of many parts", "rigid": "two models", "impact": "times of impact", "shapes": "shape queries",
     "convex": "convex bodies", "pieces": "solids of convex pieces", "world": "many moving boxes",
+    "manifolds": "contacts of many bodies", "model-contacts": "contacts of two models",
     "ccd": "elementary tests and deforming surfaces", "massive": "stores", "import": "reading files",
     "walk": "walks"}
 MOST_ROWS = 36  # of a plot on the overview

@@ -11,6 +11,8 @@ ROOMS = {
     "models": ("Models and scenes", "Meshes, models, parts, files."),
     "queries": ("Queries of one or two models", "Contact, distance, depth, times of impact, rays, points; convex bodies and pieces."),
     "bodies": ("Bodies that move or deform", "Worlds, broad phases, deformable surfaces."),
+    "robots": ("Robots", "Arms from URDF and SRDF: contact, distance, times of impact of configurations."),
+    "assemblies": ("Assemblies in motion", "Parts on joints over time, and the clashes between them."),
     "stores": ("Stores and clashes", "Models larger than memory, clash jobs, reviews, levels of detail."),
     "walks": ("Walks", "What is near someone who walks through a plant, and what is carried."),
     "pictures": ("Pictures and views", "Cameras, tours, pictures, what a renderer draws."),

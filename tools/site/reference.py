@@ -77,7 +77,11 @@ class Reference:
 
     def introduction(self, header):
         """What the header says about itself, above its namespace."""
-        found = INTRODUCTION.search((self.root / "include" / header).read_text())
+        text = (self.root / "include" / header).read_text()
+        in_c = re.search(r"\n/\*\*\n((?: \* .+\n)+)", text)
+        if in_c:
+            return " ".join(line[3:] for line in in_c[1].splitlines())
+        found = INTRODUCTION.search(text)
         return " ".join(line[3:].strip() for line in found[1].splitlines()) if found else ""
 
     def page(self, header):
