@@ -17,9 +17,9 @@ if(ABUT_SANITIZE)
     target_compile_options(abut_compile INTERFACE -O1 -g1 -fsanitize=${ABUT_SANITIZE}
                            -fno-sanitize-recover=all -fno-omit-frame-pointer)
     if(ABUT_SANITIZE MATCHES "address.*undefined")
-        # A pointer that these find wrong is reported by the address sanitizer when it is used. Without
-        # them, compiling takes two thirds of the time.
-        target_compile_options(abut_compile INTERFACE -fno-sanitize=null,object-size,pointer-overflow)
+        # A wrong pointer is reported by the address sanitizer when it is used. x86 reads what is not aligned.
+        # Without these checks, compiling takes half of the time.
+        target_compile_options(abut_compile INTERFACE -fno-sanitize=null,object-size,pointer-overflow,alignment)
     endif()
     target_link_options(abut_compile INTERFACE -fsanitize=${ABUT_SANITIZE})
 endif()
