@@ -139,6 +139,28 @@ def test_poses_of_every_kind():
     assert np.allclose(abut.Pose.from_matrix(matrix((1, 2, 3), q)).matrix(), matrix((1, 2, 3), q))
 
 
+def test_many_poses_from_arrays_of_any_layout():
+    model = abut.Model(*box())
+    poses = np.array([matrix((3 + i, 0.1, 0.2), (0.5, 0.5, 0.5, 0.5)) for i in range(6)])
+    expected = [abut.distance(model, None, model, pose).distance for pose in poses]
+    wide = np.zeros((12, 4, 8))
+    wide[::2, :, ::2] = poses
+    for same in (poses, np.asfortranarray(poses), wide[::2, :, ::2], poses.astype(">f8"), poses[::-1].copy()[::-1], poses.tolist()):
+        assert abut.distance(model, None, model, same).distance.tolist() == expected
+        assert abut.distance(model, same, model, poses[:1].repeat(6, axis=0)).distance[0] == abut.distance(model, poses[0], model, poses[0]).distance
+    assert [depth.depth for depth in abut.penetration(model, poses, model, poses)] == [abut.penetration(model, p, model, p).depth for p in poses]
+    convex = abut.Convex(*box())
+    assert abut.distance(convex, poses, convex, None).distance.tolist() == [abut.distance(convex, p, convex, None).distance for p in poses]
+    assert len(abut.distance(model, None, model, poses[:0])) == 0
+    bad = poses.copy()
+    bad[5, 3, 0] = 1
+    for a, b in ((bad, None), (None, bad), (bad, poses[0])):
+        with pytest.raises(ValueError, match="last row"):
+            abut.distance(model, a, model, b)
+    with pytest.raises(ValueError):
+        abut.distance(model, poses, model, poses[:5])
+
+
 def test_pickles():
     model = abut.Model(*sphere(6))
     for value in (model, abut.Pose((1, 2, 3)), abut.distance, abut.Status.exact, abut.Error):

@@ -29,13 +29,14 @@ py::object one_or_many(const PosePair& poses, Work& work, Query query) {
     if (!poses.many())
         return py::cast(work.run(
             [&](const Progress& /*progress*/) { return query(poses.a.one, poses.b.one); }));
+    const auto placements = poses.placements();
     return records(work.run([&](const Progress& progress) {
         std::vector<decltype(query(poses.a.one, poses.b.one))> answers;
-        answers.reserve(poses.size.size());
-        for (std::size_t i = 0; i < poses.size.size(); ++i) {
+        answers.reserve(placements.size());
+        for (const Placement& placement : placements) {
             if (*progress.stop)
                 throw Error(ErrorCode::interrupted, "interrupted");
-            answers.push_back(query(poses.a.at(i), poses.b.at(i)));
+            answers.push_back(query(placement.world_from_a, placement.world_from_b));
         }
         return answers;
     }));

@@ -21,14 +21,15 @@ py::object run_penetration(const Arguments& arguments) {
             options.progress = progress;
             return penetration(a, poses.a.one, b, poses.b.one, options);
         }));
+    const auto placements = poses.placements();
     return py::cast(work.run([&](const Progress& progress) {
         options.progress.stop = progress.stop;
         std::vector<Depth> list;
-        for (std::size_t i = 0; i < poses.size.size(); ++i) {
-            list.push_back(penetration(a, poses.a.at(i), b, poses.b.at(i), options));
+        for (const auto& [world_from_a, world_from_b] : placements) {
+            list.push_back(penetration(a, world_from_a, b, world_from_b, options));
             if (progress.report)
-                progress.report("penetration", static_cast<double>(i + 1) /
-                                                   static_cast<double>(poses.size.size()));
+                progress.report("penetration", static_cast<double>(list.size()) /
+                                                   static_cast<double>(placements.size()));
         }
         return list;
     }));

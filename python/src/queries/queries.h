@@ -14,8 +14,8 @@ class PosePair {
 public:
     PosePair(const Arguments& arguments, std::size_t place_a, std::size_t place_b)
         : a(to_poses(arguments[place_a], "pose_a")), b(to_poses(arguments[place_b], "pose_b")) {
-        size.add(a.many, a.list.size(), "pose_a");
-        size.add(b.many, b.list.size(), "pose_b");
+        size.add(a.many, a.size(), "pose_a");
+        size.add(b.many, b.size(), "pose_b");
     }
     [[nodiscard]] bool many() const noexcept { return size.many(); }
     [[nodiscard]] std::vector<Placement> placements() const {

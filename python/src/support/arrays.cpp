@@ -274,10 +274,27 @@ Transform to_transform(py::handle object, const char* name) {
     return poses.one;
 }
 
+std::size_t PoseArgument::size() const {
+    if (!matrices)
+        return list.size();
+    return static_cast<std::size_t>(py::detail::array_proxy(matrices.ptr())->dimensions[0]);
+}
+
+Transform PoseArgument::at(std::size_t index) const {
+    if (!many)
+        return one;
+    if (!matrices)
+        return list[index];
+    const auto* array = py::detail::array_proxy(matrices.ptr());
+    return read_matrix(array->data + static_cast<py::ssize_t>(index) * array->strides[0],
+                       array->strides[1], array->strides[2], name);
+}
+
 PoseArgument to_poses(py::handle object, const char* name) {
     if (object.is_none())
         return {};
     PoseArgument result;
+    result.name = name;
     if (const char* data = aligned_doubles(object)) {
         const auto* array = py::detail::array_proxy(object.ptr());
         if (array->nd == 2 && array->dimensions[0] == 4 && array->dimensions[1] == 4) {
@@ -286,10 +303,7 @@ PoseArgument to_poses(py::handle object, const char* name) {
         }
         if (array->nd == 3 && array->dimensions[1] == 4 && array->dimensions[2] == 4) {
             result.many = true;
-            result.list.reserve(static_cast<std::size_t>(array->dimensions[0]));
-            for (py::ssize_t i = 0; i < array->dimensions[0]; ++i)
-                result.list.push_back(read_matrix(data + i * array->strides[0], array->strides[1],
-                                                  array->strides[2], name));
+            result.matrices = py::reinterpret_borrow<py::object>(object);
             return result;
         }
     }
@@ -351,8 +365,8 @@ std::vector<Pose> to_pose_list(py::handle object, const char* name) {
     if (!poses.many)
         throw py::value_error(std::string(name) +
                               ": many poses are wanted, as an array of shape (n, 4, 4)");
-    for (const Transform& transform : poses.list)
-        list.push_back(rigid(transform, name));
+    for (std::size_t i = 0; i < poses.size(); ++i)
+        list.push_back(rigid(poses.at(i), name));
     return list;
 }
 

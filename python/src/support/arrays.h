@@ -33,9 +33,15 @@ std::vector<std::uint32_t> to_indices(py::handle object, const char* name);
 struct PoseArgument {
     bool many = false;
     Transform one;
-    std::vector<Transform> list; ///< if many
+    /// If many, one of these. Matrices stay where they are, because a copy of thousands costs as much
+    /// as asking some queries.
+    py::object matrices;
+    std::vector<Transform> list;
+    const char* name = "";
 
-    [[nodiscard]] const Transform& at(std::size_t index) const { return many ? list[index] : one; }
+    [[nodiscard]] std::size_t size() const;
+    /// Raises ValueError if the last row of the matrix is not 0 0 0 1. With the interpreter's lock.
+    [[nodiscard]] Transform at(std::size_t index) const;
 };
 
 /// From None (where the model is), a Pose, (translation, quaternion) or a matrix of shape (4, 4).
