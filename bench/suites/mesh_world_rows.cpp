@@ -76,7 +76,7 @@ public:
         for (std::size_t i = 0; i < crowd.mesh_of.size(); ++i)
             ids_.push_back(world_.add(models[crowd.mesh_of[i]], bodies_.poses[i]));
     }
-    /// One row: find() is our query and returns the number of pairs that touch.
+    /// Returns a row. find() is our query and returns the number of pairs that touch.
     template <typename Find>
     Row measure(const std::string& name, int steps, std::size_t every,
                 const std::vector<std::unique_ptr<MeshWorldPeer>>& peers, const Find& find) {

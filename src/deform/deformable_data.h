@@ -52,11 +52,12 @@ public:
     RestModel rest_model;                        ///< made when it is first asked for
 
     [[nodiscard]] SurfaceView surface() const { return {vertices.size(), triangles, features}; }
-    /// Whether the leaves of the hierarchy are searched, not pairs of triangles or of features.
+    /// Returns whether leaves of the hierarchy are searched, not pairs of triangles or of features.
     [[nodiscard]] bool searches_leaves() const {
         return options.scheme == Scheme::representative && options.culling == Culling::tree;
     }
-    /// Whether pairs of triangles are taken one by one, and the boxes of their features compared.
+    /// Returns whether pairs of triangles are taken one by one, and the boxes of their features
+    /// compared.
     [[nodiscard]] bool compares_boxes_of_pairs() const {
         return options.scheme == Scheme::pairwise || options.scheme == Scheme::database ||
                (options.scheme == Scheme::representative && options.culling != Culling::tree);

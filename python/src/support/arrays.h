@@ -33,11 +33,12 @@ std::vector<std::uint32_t> to_indices(py::handle object, const char* name);
 struct PoseArgument {
     bool many = false;
     Transform one;
-    /// If many, one of these. Matrices stay where they are, because a copy of thousands costs as much
-    /// as asking some queries.
+    /// If many, the poses are in one of these two. An array of matrices is not copied: with the copy,
+    /// a call of thousands of queries frees more memory than glibc keeps, and the next one pays for
+    /// mapping it anew.
     py::object matrices;
     std::vector<Transform> list;
-    const char* name = "";
+    const char* name = ""; ///< of the argument, for errors
 
     [[nodiscard]] std::size_t size() const;
     /// Raises ValueError if the last row of the matrix is not 0 0 0 1. With the interpreter's lock.

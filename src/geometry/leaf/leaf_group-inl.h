@@ -53,7 +53,7 @@ public:
         append(near >> 8, count_ * kPairs + 8);
         ++count_;
     }
-    /// Whether the undecided candidates fill all lanes.
+    /// Returns whether the undecided candidates fill all lanes.
     [[nodiscard]] HWY_INLINE bool fills_lanes() const {
         return candidate_count_ - decided_ >= hn::Lanes(PairLanes());
     }

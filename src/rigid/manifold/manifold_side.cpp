@@ -45,7 +45,8 @@ public:
         for (int axis = 0; axis < 3; ++axis)
             point_[axis] = component(point, axis);
     }
-    /// Whether the line misses the box around a triangle's projection. False proves nothing.
+    /// Returns true only if the line misses the box around a triangle's projection. False proves
+    /// nothing.
     [[nodiscard]] bool misses(const Triangle& t) const {
         std::array<double, 3> u{}, v{};
         for (std::size_t k = 0; k < 3; ++k) {

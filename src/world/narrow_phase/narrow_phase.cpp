@@ -204,7 +204,7 @@ BodyGap measure(const PlacedConvex& a, const PlacedRounded& b, double /*upper_bo
         solid.radius);
 }
 
-/// Whether a part of a surface lies in a box. In: the surface does not meet the faces of the box.
+/// Returns whether a part of a surface lies in a box, if the surface does not meet its faces.
 bool any_component_inside(const PlacedSurface& a, const RoundedBox& box) {
     const ModelData& data = a.shape.data();
     const auto& components = data.solid().components;
