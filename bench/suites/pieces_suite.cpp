@@ -48,7 +48,7 @@ struct PiecesCase {
     bool small_steps = false;
     [[nodiscard]] bool coherent() const { return small_steps || regime == Regime::path; }
 };
-constexpr std::array kCases{
+constexpr std::array kPiecesCases{
     PiecesCase{"distance, separated", Ask::distance, Regime::separated},
     PiecesCase{"distance, graze out", Ask::distance, Regime::graze_out},
     PiecesCase{"distance, graze in", Ask::distance, Regime::graze_in},
@@ -142,7 +142,7 @@ public:
 
     void run() {
         add_build_row(scene_.name + ", build of the first", scene_.a, options_.rounds, report_);
-        for (const PiecesCase& c : kCases)
+        for (const PiecesCase& c : kPiecesCases)
             if (std::string_view(c.name).find(options_.only) != std::string_view::npos)
                 run(c);
     }

@@ -49,7 +49,7 @@ struct RigidCase {
     Regime regime = Regime::deep;
     double tolerance = 0;
 };
-constexpr std::array kCases{
+constexpr std::array kRigidCases{
     RigidCase{"first contact, deep", RigidQuery::first_contact, Regime::deep},
     RigidCase{"first contact, graze in", RigidQuery::first_contact, Regime::graze_in},
     RigidCase{"first contact, graze out", RigidQuery::first_contact, Regime::graze_out},
@@ -107,7 +107,7 @@ public:
     }
 
     void run() {
-        for (const RigidCase& c : kCases)
+        for (const RigidCase& c : kRigidCases)
             if (options_.only.empty() ||
                 std::string_view(c.name).find(options_.only) != std::string_view::npos)
                 run(c);

@@ -13,7 +13,7 @@
 namespace abut::test {
 namespace {
 
-enum class Placement { rigid, affine, far, flattened, rigid_on_grid };
+enum class RigidPlacement { rigid, affine, far, flattened, rigid_on_grid };
 
 Mesh make_pair_mesh(Random& random, int kind) {
     switch (kind) {
@@ -35,15 +35,15 @@ Mesh make_pair_mesh(Random& random, int kind) {
     }
 }
 
-Transform place(Random& random, Placement kind, const Vec3& at) {
+Transform place(Random& random, RigidPlacement kind, const Vec3& at) {
     Transform t = random.pose(0);
-    if (kind == Placement::rigid_on_grid) // a quarter turn on a grid gives exact contacts
+    if (kind == RigidPlacement::rigid_on_grid) // a quarter turn on a grid gives exact contacts
         t = Transform({0, 1, 0, -1, 0, 0, 0, 0, 1, 0, 0, 0});
-    if (kind == Placement::affine)
+    if (kind == RigidPlacement::affine)
         t = compose(t, Transform({random.chance(0.5) ? -1.3 : 1.3, random.uniform(-0.5, 0.5), 0,
                                   random.uniform(-0.5, 0.5), random.uniform(0.5, 1.5), 0, 0,
                                   random.uniform(-0.5, 0.5), random.uniform(0.5, 1.5), 0, 0, 0}));
-    if (kind == Placement::flattened)
+    if (kind == RigidPlacement::flattened)
         t = compose(t, scaling(1, 1, random.chance(0.5) ? 0 : 1));
     t.m[9] = at.x, t.m[10] = at.y, t.m[11] = at.z;
     return t;
@@ -115,22 +115,22 @@ bool check(const PairCase& c) {
     return !pairs.empty();
 }
 
-class Rigid : public testing::TestWithParam<Placement> {};
+class Rigid : public testing::TestWithParam<RigidPlacement> {};
 
 TEST_P(Rigid, EqualsBruteForce) {
-    const Placement placement = GetParam();
+    const RigidPlacement placement = GetParam();
     Random random(1000 + static_cast<std::uint64_t>(placement));
     int meet = 0, cases = 0;
     for (int kind_a = 0; kind_a < 5; ++kind_a)
         for (int kind_b = 0; kind_b < 5; ++kind_b)
             for (int i = 0; i < 8; ++i, ++cases) {
                 const Vec3 at =
-                    placement == Placement::far ? random.in_cube(1e5) : random.in_cube(3);
-                const double reach = placement == Placement::rigid    ? 2.7
-                                     : placement == Placement::affine ? 3.1
-                                                                      : 2.6;
+                    placement == RigidPlacement::far ? random.in_cube(1e5) : random.in_cube(3);
+                const double reach = placement == RigidPlacement::rigid    ? 2.7
+                                     : placement == RigidPlacement::affine ? 3.1
+                                                                           : 2.6;
                 Vec3 off = random.uniform(0.6, reach) * random.direction();
-                if (placement == Placement::rigid_on_grid)
+                if (placement == RigidPlacement::rigid_on_grid)
                     off = {std::round(off.x * 4) / 4, std::round(off.y * 4) / 4,
                            std::round(off.z * 4) / 4};
                 const PairCase c{Model(make_pair_mesh(random, kind_a)),
@@ -143,8 +143,9 @@ TEST_P(Rigid, EqualsBruteForce) {
     EXPECT_LT(meet, cases * 7 / 10);
 }
 INSTANTIATE_TEST_SUITE_P(Placements, Rigid,
-                         testing::Values(Placement::rigid, Placement::affine, Placement::far,
-                                         Placement::flattened, Placement::rigid_on_grid));
+                         testing::Values(RigidPlacement::rigid, RigidPlacement::affine,
+                                         RigidPlacement::far, RigidPlacement::flattened,
+                                         RigidPlacement::rigid_on_grid));
 
 TEST(Rigid, EverySimdTargetAgrees) {
     for_each_simd_target([](const std::string& target) {
@@ -152,7 +153,7 @@ TEST(Rigid, EverySimdTargetAgrees) {
         Random random(1010);
         int meet = 0;
         for (int i = 0; i < 30; ++i) {
-            const auto placement = i % 2 == 0 ? Placement::rigid : Placement::affine;
+            const auto placement = i % 2 == 0 ? RigidPlacement::rigid : RigidPlacement::affine;
             const PairCase c{
                 Model(make_pair_mesh(random, i % 5)), Model(make_pair_mesh(random, i / 5 % 5)),
                 place(random, placement, {}),
@@ -168,7 +169,7 @@ TEST(Rigid, CoincidentModels) {
     Random random(1011);
     for (int kind = 0; kind < 5; ++kind) {
         const Model m(make_pair_mesh(random, kind));
-        const Transform t = place(random, Placement::affine, random.in_cube(5));
+        const Transform t = place(random, RigidPlacement::affine, random.in_cube(5));
         EXPECT_TRUE(check({m, m, t, t}));
     }
 }
