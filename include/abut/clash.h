@@ -18,10 +18,13 @@
 /// docs/clash.md defines each kind.
 namespace abut {
 
-enum class ClashKind : std::uint8_t { hard, touch, contained, duplicate, clearance };
-inline constexpr std::array kClashKinds{ClashKind::hard, ClashKind::touch, ClashKind::contained,
-                                        ClashKind::duplicate, ClashKind::clearance};
-/// "hard", "touch", "contained", "duplicate", "clearance".
+/// `undecided`: the surfaces meet, and neither `hard` nor `touch` could be proven within the budget of
+/// a pair.
+enum class ClashKind : std::uint8_t { hard, touch, contained, duplicate, clearance, undecided };
+inline constexpr std::array kClashKinds{ClashKind::hard,      ClashKind::touch,
+                                        ClashKind::contained, ClashKind::duplicate,
+                                        ClashKind::clearance, ClashKind::undecided};
+/// "hard", "touch", "contained", "duplicate", "clearance", "undecided".
 const char* to_string(ClashKind kind);
 
 /// The status of a clash across the jobs of a store; see docs/clash-status.md.
@@ -212,7 +215,7 @@ struct ClashReport {
             bool examined = true;
             double clearance = 0; ///< metres
             std::string severity;
-            std::array<std::uint64_t, 5> counts{}; ///< by ClashKind
+            std::array<std::uint64_t, 6> counts{}; ///< by ClashKind
         };
         std::vector<std::string> groups;
         std::vector<Cell> cells;
@@ -226,7 +229,7 @@ struct ClashReport {
     std::vector<std::string> warnings;
     double clearance = 0, touch_tolerance = 0;
     std::uint64_t candidates = 0; ///< part pairs whose boxes are within the clearance on every axis
-    std::array<std::uint64_t, 5> counts{}; ///< by ClashKind
+    std::array<std::uint64_t, 6> counts{}; ///< by ClashKind
     /// Pairs that are not in the report, by LeftOut. Only the last two reasons are counted after a
     /// pair was tested; the other pairs are not tested.
     std::array<std::uint64_t, kLeftOut.size()> left_out{};
@@ -259,8 +262,8 @@ struct ClashReport {
 ///             mesh that a candidate needs.
 ClashReport find_clashes(const std::vector<Scene>& models, const ClashOptions& options);
 
-/// Returns the indices of the report's clashes, the worst first: `hard` by volume, then by depth;
-/// `contained` and `duplicate` by volume; `touch` by depth; `clearance` by distance, the nearest
+/// Returns the indices of the report's clashes, the worst first: `hard`, then `undecided`, by
+/// volume, then by depth; `contained` and `duplicate` by volume; `touch` by depth; `clearance` by distance, the nearest
 /// first. Clashes of equal rank keep their order.
 std::vector<std::uint32_t> ranked_clashes(const ClashReport& report);
 

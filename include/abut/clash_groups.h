@@ -72,7 +72,7 @@ struct ClashGroup {
     std::vector<ClashGroup> groups;     ///< if any, every clash is in exactly one of them
     Box3 bounds;                        ///< of the witness points of its clashes
     Vec3 centre; ///< place: the point that its clashes are near; others: the middle of `bounds`
-    std::array<std::uint64_t, 5> counts{}; ///< number of clashes of each ClashKind
+    std::array<std::uint64_t, 6> counts{}; ///< number of clashes of each ClashKind
     double deepest = 0; ///< metres; the smallest distance of a clash, negative if parts meet
     /// The part that all clashes share, as model and part (kind `part`).
     std::optional<std::array<std::uint32_t, 2>> part;
@@ -105,7 +105,7 @@ struct GroupOptions {
 /// The numbers of one job of a store, for a chart over time.
 struct JobCounts {
     std::int64_t finished = 0;               ///< seconds since 1970
-    std::array<std::uint64_t, 5> kinds{};    ///< clashes of each ClashKind
+    std::array<std::uint64_t, 6> kinds{};    ///< clashes of each ClashKind
     std::array<std::uint64_t, 5> statuses{}; ///< clashes of each ClashStatus after the job
     std::array<std::uint64_t, 5> groups{};   ///< groups of each GroupChange; zeros: not grouped
 };

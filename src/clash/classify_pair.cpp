@@ -1,6 +1,7 @@
 #include "clash/classify_pair.h"
 
 #include "clash/blocks_pair.h"
+#include "clash/meeting_kind.h"
 #include "clash/part_pair.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "geometry/triangle_triangle_penetration.h"
@@ -11,15 +12,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
 namespace abut {
 
 namespace {
-
-/// Samples of each surface, at most, to make a depth accurate. docs/clash.md gives the accuracy.
-constexpr int kSamples = 200;
 
 /// Returns a `touch` clash at a common point of two triangles that share one.
 Clash clash_at(const WorldSolid& a, const WorldSolid& b, const TrianglePair& triangles) {
@@ -56,36 +55,52 @@ std::optional<Clash> classify_duplicates(PartPair& pair) {
     return clash;
 }
 
-/// Returns the clash of two parts whose surfaces meet, `hard` or `touch`; none if they do not meet.
-std::optional<Clash> classify_meeting(PartPair& pair, double touch) {
+std::vector<Contact> sorted_contacts(PartPair& pair) {
     std::vector<Contact> contacts;
     pair.for_each_contact([&](const Contact& contact) { contacts.push_back(contact); });
-    if (contacts.empty())
-        return std::nullopt;
     // Sorted, so that the order visibly depends neither on the SIMD width nor on the blocks.
     std::sort(contacts.begin(), contacts.end(),
               [](const Contact& c, const Contact& d) { return c.pair < d.pair; });
+    return contacts;
+}
+
+/// Returns the clash of two parts whose surfaces meet: `hard`, `touch` or `undecided`.
+Clash classify_meeting(PartPair& pair, std::span<const Contact> contacts, double touch) {
     const WorldSolid &a = pair.a().solid(), &b = pair.b().solid();
     Clash clash = clash_at(a, b, contacts.front().pair);
     clash.triangle_pairs = contacts.size();
     const Meeting meeting = examine_meeting(a, b, contacts);
     if (meeting.parting != Vec3{})
         clash.direction = meeting.parting;
-    if (!meeting.interpenetrate)
-        return clash;
-    DepthSearch options;
-    options.threshold = touch;
-    options.accuracy_budget = kSamples;
-    const LocalPenetration p = penetration_depth(a, b, contacts, options);
-    // The clash is hard unless the depth is proven to be at most `touch`.
-    clash.kind = touch == 0 || p.at_most > touch ? ClashKind::hard : ClashKind::touch;
-    if (p.depth > 0) {
+    const MeetingKind found = meeting_kind(pair, contacts, meeting, touch);
+    clash.kind = found.kind;
+    const LocalPenetration& p = found.penetration;
+    // A depth that rounding may have made is none.
+    if (p.depth > p.rounding) {
         clash.distance = -p.depth;
         clash.point_a = p.point_a, clash.point_b = p.point_b;
         clash.direction = p.direction;
     }
-    if (clash.kind == ClashKind::hard)
+    if (clash.kind != ClashKind::touch)
         set_volume(clash, overlap_volume(a, b));
+    return clash;
+}
+
+/// Returns the clash of two parts each of which is everywhere within `touch` of the other one: a
+/// `duplicate`, or `undecided` if that is not proven.
+Clash classify_near_duplicates(PartPair& pair, std::span<const Contact> contacts, Proof proof) {
+    const WorldSolid &a = pair.a().solid(), &b = pair.b().solid();
+    Clash clash;
+    if (!contacts.empty()) {
+        clash = clash_at(a, b, contacts.front().pair);
+    } else {
+        const Gap gap = pair.nearest(std::numeric_limits<double>::infinity());
+        clash.point_a = gap.point_a, clash.point_b = gap.point_b;
+    }
+    clash.kind = proof == Proof::holds ? ClashKind::duplicate : ClashKind::undecided;
+    clash.direction = {};
+    clash.triangle_pairs = contacts.size();
+    set_volume(clash, overlap_volume(a, b));
     return clash;
 }
 
@@ -98,17 +113,26 @@ bool lies_inside(BlockList& inner, BlockList& outer) {
                        [&](const Vec3& point) { return outer.solid().winds_around(point); });
 }
 
-/// Returns the clash of two parts whose surfaces do not meet: `contained`, `clearance` or none.
-std::optional<Clash> classify_apart(PartPair& pair, double clearance) {
+/// Returns the clash of two parts whose surfaces do not meet: `contained`, `touch`, `clearance` or
+/// none.
+std::optional<Clash> classify_apart(PartPair& pair, double clearance, double touch) {
     const bool a_inside = lies_inside(pair.a(), pair.b());
     const bool contained = a_inside || lies_inside(pair.b(), pair.a());
-    if (!contained && clearance == 0)
+    const double farthest = std::max(clearance, touch);
+    if (!contained && farthest == 0)
         return std::nullopt;
-    const Gap gap = pair.nearest(contained ? std::numeric_limits<double>::infinity() : clearance);
-    if (!contained && !(gap.distance < clearance))
+    // A gap that exceeds `touch` only by rounding counts as `touch`.
+    const double touching =
+        touch > 0 ? touch + depth_rounding(pair.a().solid(), pair.b().solid()) : 0;
+    const Gap gap = pair.nearest(contained ? std::numeric_limits<double>::infinity()
+                                           : std::max(clearance, touching));
+    const bool touches = gap.distance <= touching;
+    if (!contained && !touches && !(gap.distance < clearance))
         return std::nullopt;
     Clash clash;
-    clash.kind = contained ? ClashKind::contained : ClashKind::clearance;
+    clash.kind = contained ? ClashKind::contained
+                 : touches ? ClashKind::touch
+                           : ClashKind::clearance;
     clash.distance = contained ? -gap.distance : gap.distance;
     clash.point_a = gap.point_a, clash.point_b = gap.point_b;
     const Vec3 away = normalized_or_zero(gap.point_b - gap.point_a);
@@ -119,10 +143,16 @@ std::optional<Clash> classify_apart(PartPair& pair, double clearance) {
 }
 
 std::optional<Clash> classify(PartPair& pair, double clearance, double touch) {
-    const std::optional<Clash> clash = same_triangles(pair.a(), pair.b())
-                                           ? classify_duplicates(pair)
-                                           : classify_meeting(pair, touch);
-    return clash ? clash : classify_apart(pair, clearance);
+    if (same_triangles(pair.a(), pair.b()))
+        if (std::optional<Clash> clash = classify_duplicates(pair))
+            return clash;
+    const std::vector<Contact> contacts = sorted_contacts(pair);
+    if (touch > 0)
+        if (const Proof proof = are_duplicates(pair, touch); proof != Proof::fails)
+            return classify_near_duplicates(pair, contacts, proof);
+    if (!contacts.empty())
+        return classify_meeting(pair, contacts, touch);
+    return classify_apart(pair, clearance, touch);
 }
 
 } // namespace
@@ -134,7 +164,7 @@ std::optional<Clash> classify_pair(const ClashPart& a, const ClashPart& b, doubl
         return classify(pair, clearance, touch);
     }
     if (far_apart(a.model->data(), a.world_from_mesh, b.model->data(), b.world_from_mesh,
-                  clearance))
+                  std::max(clearance, touch * (1 + 0x1p-20))))
         return std::nullopt;
     WholePair pair(a, b);
     return classify(pair, clearance, touch);

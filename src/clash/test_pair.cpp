@@ -1,21 +1,19 @@
 #include "clash/test_pair.h"
 
-#include <algorithm>
-
 namespace abut {
 
 namespace {
 
-std::optional<LeftOut> why_left_out(const Clash& clash, const PairTerms& terms) {
-    const bool meets = clash.kind == ClashKind::touch || clash.kind == ClashKind::hard;
-    // A touch that is deeper than the tolerated depth, but not than the touch tolerance, stays.
-    const bool is_tolerated =
-        terms.tolerated >= terms.touch
-            ? clash.kind == ClashKind::touch
-            : meets && terms.tolerated >= 0 && -clash.distance <= terms.tolerated;
-    if (is_tolerated)
+std::optional<LeftOut> why_left_out(const Clash& clash, bool tolerated, const PairTerms& terms) {
+    if (tolerated)
         return LeftOut::tolerated;
-    if ((terms.kinds >> static_cast<unsigned>(clash.kind) & 1U) == 0)
+    const auto wanted = [&](ClashKind kind) {
+        return (terms.kinds >> static_cast<unsigned>(kind) & 1U) != 0;
+    };
+    // An undecided clash may be of either kind.
+    const bool may_be_wanted =
+        clash.kind == ClashKind::undecided && (wanted(ClashKind::hard) || wanted(ClashKind::touch));
+    if (!wanted(clash.kind) && !may_be_wanted)
         return LeftOut::other_kind;
     return std::nullopt;
 }
@@ -25,13 +23,25 @@ std::optional<LeftOut> why_left_out(const Clash& clash, const PairTerms& terms) 
 PairAnswer test_pair(const ClashPart& a, std::string_view id_a, const ClashPart& b,
                      std::string_view id_b, const PairTerms& terms) {
     PairAnswer answer;
-    // With the larger of both depths as touch tolerance, `touch` means at most the tolerated depth.
-    answer.clash =
-        classify_by_id(a, id_a, b, id_b, terms.clearance, std::max(terms.touch, terms.tolerated));
-    if (answer.clash) {
-        answer.clash->neighbours = terms.neighbours;
-        answer.left_out = why_left_out(*answer.clash, terms);
-    }
+    answer.clash = classify_by_id(a, id_a, b, id_b, terms.clearance, terms.touch);
+    if (!answer.clash)
+        return answer;
+    answer.clash->neighbours = terms.neighbours;
+    // With the tolerated depth in place of the touch tolerance, `touch` means that the parts meet no
+    // deeper than is tolerated.
+    const auto is_tolerated = [&] {
+        if (terms.tolerated < 0 || -answer.clash->distance > terms.tolerated)
+            return false;
+        if (answer.clash->kind == ClashKind::touch)
+            return true;
+        if (answer.clash->kind != ClashKind::hard && answer.clash->kind != ClashKind::undecided)
+            return false;
+        const std::optional<Clash> met =
+            terms.tolerated > terms.touch ? classify_by_id(a, id_a, b, id_b, 0, terms.tolerated)
+                                          : answer.clash;
+        return met && met->kind == ClashKind::touch;
+    };
+    answer.left_out = why_left_out(*answer.clash, is_tolerated(), terms);
     return answer;
 }
 

@@ -34,7 +34,8 @@ std::string kind_text(ClashKind kind) {
 
 /// Returns kind_text, coloured by the severity of the kind.
 std::string kind_column(ClashKind kind) {
-    const bool is_bad = kind == ClashKind::hard || kind == ClashKind::contained;
+    const bool is_bad = kind == ClashKind::hard || kind == ClashKind::contained ||
+                        kind == ClashKind::undecided;
     return coloured(is_bad ? Colour::bad : Colour::doubtful, kind_text(kind));
 }
 
@@ -109,6 +110,8 @@ std::string summary(const ClashReport& report, const std::vector<Scene>& models)
                         grouped(report.candidates));
     for (const ClashKind kind : kClashKinds) {
         const std::uint64_t count = report.counts.at(static_cast<std::size_t>(kind));
+        if (kind == ClashKind::undecided && count == 0)
+            continue;
         const std::string column = count > 0 ? kind_column(kind) : kind_text(kind);
         text += fmt::format("  {} {:>9}\n", column, grouped(count));
     }

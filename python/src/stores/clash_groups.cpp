@@ -11,8 +11,9 @@ namespace abut::python {
 
 namespace {
 
-template <typename Key>
-py::dict dict_of(const std::array<std::uint64_t, 5>& numbers, const std::array<Key, 5>& keys) {
+template <typename Key, std::size_t count>
+py::dict dict_of(const std::array<std::uint64_t, count>& numbers,
+                 const std::array<Key, count>& keys) {
     py::dict dict;
     for (const Key key : keys)
         dict[to_string(key)] = numbers[static_cast<std::size_t>(key)];

@@ -157,7 +157,7 @@ private:
     }
 
     [[nodiscard]] DerivedWords derived_words(const std::vector<std::uint32_t>& clashes) const {
-        std::array<std::uint64_t, 5> counts{};
+        std::array<std::uint64_t, kClashKinds.size()> counts{};
         std::set<std::string> labels;
         double deepest = 0;
         for (const std::uint32_t index : clashes) {

@@ -83,8 +83,8 @@ private:
             return clash_.distance;
         if (name == "volume")
             return clash_.volume;
-        if (clash_.kind == ClashKind::duplicate ||
-            (clash_.kind == ClashKind::clearance) != (name == "gap"))
+        const bool apart = clash_.kind == ClashKind::clearance || clash_.distance > 0;
+        if (clash_.kind == ClashKind::duplicate || apart != (name == "gap"))
             return std::nullopt;
         return std::abs(clash_.distance);
     }

@@ -148,6 +148,8 @@ const char* to_string(ClashKind kind) {
         return "duplicate";
     case ClashKind::clearance:
         return "clearance";
+    case ClashKind::undecided:
+        return "undecided";
     }
     return "unknown";
 }

@@ -36,7 +36,7 @@ ClashReport::Matrix matrix_of(const ClashReport& report, const ClashOptions& opt
 
 /// The worst clashes come first.
 auto rank_of(const Clash& clash) {
-    constexpr std::array kOrder{0, 3, 1, 2, 4}; // by ClashKind
+    constexpr std::array kOrder{0, 4, 2, 3, 5, 1}; // by ClashKind
     return std::tuple(kOrder.at(static_cast<std::size_t>(clash.kind)), -clash.volume,
                       clash.distance);
 }

@@ -60,6 +60,12 @@ constexpr std::array kOfPeople{
   resolved INTEGER NOT NULL,
   checksum INTEGER NOT NULL,
   PRIMARY KEY(question, job)) WITHOUT ROWID)"},
+    // The table of counts has no column for clashes of kind `undecided`: jobs that have some have a row.
+    StoreTable{"job_undecided", R"(CREATE TABLE job_undecided(
+  question INTEGER NOT NULL,
+  job INTEGER NOT NULL,
+  number INTEGER NOT NULL,
+  PRIMARY KEY(question, job)) WITHOUT ROWID)"},
     StoreTable{"row_tally", R"(CREATE TABLE row_tally(
   list TEXT PRIMARY KEY,
   rows INTEGER NOT NULL,

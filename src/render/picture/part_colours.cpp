@@ -87,6 +87,7 @@ struct ClashColour {
 };
 /// The kinds from the worst on.
 constexpr ClashColour kClashColours[]{{ClashKind::hard, {214, 50, 40}},
+                                      {ClashKind::undecided, {190, 90, 60}},
                                       {ClashKind::contained, {156, 60, 170}},
                                       {ClashKind::duplicate, {82, 84, 196}},
                                       {ClashKind::touch, {236, 146, 40}},

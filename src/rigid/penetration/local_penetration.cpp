@@ -107,13 +107,11 @@ Vec3 origin_of(const WorldSolid& a, std::span<const Contact> contacts) {
     return points.empty() ? Vec3{} : points[0];
 }
 
-/// Bounds the rounding of a distance between two points of the models, including that of the
-/// points' coordinates relative to a near origin.
+} // namespace
+
 double depth_rounding(const WorldSolid& a, const WorldSolid& b) {
     return 0x1p-47 * (a.world_size() + b.world_size());
 }
-
-} // namespace
 
 LocalPenetration local_penetration(const WorldSolid& a, const WorldSolid& b,
                                    std::span<const Contact> contacts, const DepthSearch& options,

@@ -38,6 +38,10 @@ LocalPenetration local_penetration(const WorldSolid& a, const WorldSolid& b,
                                    std::span<const Contact> contacts, const DepthSearch& options,
                                    const SurfacePart& part_a = {}, const SurfacePart& part_b = {});
 
+/// Bounds the rounding of a distance between two points of the models, including that of the
+/// points' coordinates relative to a near origin.
+double depth_rounding(const WorldSolid& a, const WorldSolid& b);
+
 /// The depth of two models that have contacts and interpenetrate: their local penetration. If that
 /// is 0 because the models are only locked into each other (coplanar faces), the length of the
 /// shortest separating motion found.

@@ -1,7 +1,7 @@
 // The report's columns, and functions that sort, filter and export them. The DOM is used only to read
 // the data.
 
-const KINDS = ['hard', 'touch', 'contained', 'duplicate', 'clearance'];
+const KINDS = ['hard', 'touch', 'contained', 'duplicate', 'clearance', 'undecided'];
 const STATUSES = ['new', 'active', 'reviewed', 'approved', 'resolved'];
 const ANY = -1;
 

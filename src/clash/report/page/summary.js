@@ -1,11 +1,12 @@
 // The summary of the run, and the clashes that earlier jobs had found.
 
 const KIND_MEANING = {
-  hard: 'Surfaces meet, deeper than the touch tolerance',
-  touch: 'Surfaces meet, not deeper than the touch tolerance',
+  hard: 'Surfaces meet; the parts go deeper into each other than the touch tolerance',
+  touch: 'Surfaces meet, or are apart by at most the touch tolerance; nowhere deeper or thicker than it',
   contained: 'No surfaces meet; one part lies inside the other',
-  duplicate: 'The same triangles at the same place',
+  duplicate: 'Each surface is everywhere within the touch tolerance of the other one',
   clearance: 'No contact, but nearer than the clearance',
+  undecided: 'Surfaces meet; neither hard nor touch could be proven',
 };
 const STATUS_MEANING = {
   new: 'Not there in the job before',

@@ -1,0 +1,92 @@
+#include "clash/meeting_kind.h"
+
+#include "geometry/triangle_triangle_distance.h"
+#include "rigid/tolerance/overlap_within.h"
+#include "rigid/tolerance/sheets_cross.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace abut {
+
+namespace {
+
+/// Samples of each surface, at most, to make a depth accurate. docs/clash.md gives the accuracy.
+constexpr int kSamples = 200;
+
+/// Directions along which the parts are likely to overlap little: the axes, and the normals of some
+/// faces in contact.
+std::vector<Vec3> likely_directions(const WorldSolid& a, const WorldSolid& b,
+                                    std::span<const Contact> contacts) {
+    constexpr std::size_t kContacts = 3;
+    std::vector<Vec3> directions{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const std::size_t count = std::min(kContacts, contacts.size());
+    for (std::size_t i = 0; i < count; ++i) {
+        const TrianglePair& pair = contacts[i * contacts.size() / count].pair;
+        for (const Triangle& t : {a.world_triangle(pair.a), b.world_triangle(pair.b)})
+            directions.push_back(cross(t[1] - t[0], t[2] - t[0]));
+    }
+    return directions;
+}
+
+/// Decides whether two parts, one of them a solid, go at most `touch` into each other.
+Proof overlaps_at_most(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts,
+                       const LocalPenetration& depth, double touch) {
+    const double rounding = depth_rounding(a, b);
+    if (depth.depth > touch + rounding)
+        return Proof::fails;
+    if (extents_overlap_little(a, b, likely_directions(a, b, contacts), touch))
+        return Proof::holds;
+    Proof proof = depth.at_most <= touch ? Proof::holds : nowhere_deeper(a, b, {touch});
+    if (proof != Proof::fails && a.bounds_solid() && b.bounds_solid())
+        if (const Proof thin = nowhere_thicker(a, b, {touch}); thin != Proof::holds)
+            proof = thin;
+    return proof;
+}
+
+LocalPenetration depth_of(const WorldSolid& a, const WorldSolid& b,
+                          std::span<const Contact> contacts, double touch) {
+    DepthSearch options;
+    options.threshold = 0;
+    options.accuracy_budget = kSamples;
+    if (touch > 0)
+        options.reach_budget = kSamples;
+    LocalPenetration found = local_penetration(a, b, contacts, options);
+    if (found.depth > 0 || touch > 0)
+        return found;
+    // Solids that have next to nothing in common are not locked into each other.
+    const double next_to_nothing = 0x1p-20 * std::min(a.world_size(), b.world_size());
+    const bool solids = a.bounds_solid() && b.bounds_solid();
+    return solids && nowhere_thicker(a, b, {next_to_nothing}) != Proof::fails
+               ? found
+               : locked_depth(a, b, contacts);
+}
+
+} // namespace
+
+MeetingKind meeting_kind(PartPair& pair, std::span<const Contact> contacts, const Meeting& meeting,
+                         double touch) {
+    if (!meeting.interpenetrate)
+        return {};
+    const WorldSolid &a = pair.a().solid(), &b = pair.b().solid();
+    MeetingKind result{ClashKind::hard, depth_of(a, b, contacts, touch)};
+    if (touch == 0)
+        return result;
+    const Proof within = a.bounds_solid() || b.bounds_solid()
+                             ? overlaps_at_most(a, b, contacts, result.penetration, touch)
+                             : sheets_cross_at_most(a, b, contacts, touch);
+    if (within != Proof::fails)
+        result.kind = within == Proof::holds ? ClashKind::touch : ClashKind::undecided;
+    return result;
+}
+
+Proof are_duplicates(PartPair& pair, double touch) {
+    const Box3 &of_a = pair.a().part().box, &of_b = pair.b().part().box;
+    const WorldSolid &a = pair.a().solid(), &b = pair.b().solid();
+    const double allowed = touch + depth_rounding(a, b);
+    if (max_abs(of_a.lower - of_b.lower) > allowed || max_abs(of_a.upper - of_b.upper) > allowed)
+        return Proof::fails;
+    return everywhere_near(a, b, {touch});
+}
+
+} // namespace abut

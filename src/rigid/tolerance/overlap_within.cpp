@@ -1,0 +1,157 @@
+#include "rigid/tolerance/overlap_within.h"
+
+#include "rigid/model/solid.h"
+#include "rigid/penetration/local_penetration.h"
+#include "rigid/tolerance/ball_centres.h"
+#include "rigid/tolerance/faces_in_reach.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+namespace abut {
+
+namespace {
+
+/// A vertex of the surface.
+Vec3 origin_of(const WorldSolid& surface) {
+    const std::vector<Vec3> points = surface.component_points();
+    return points.empty() ? Vec3{} : points[0];
+}
+
+/// Both surfaces in a frame with a common origin near them, and the rounding there.
+struct SeenPair {
+    SeenPair(const WorldSolid& a, const WorldSolid& b)
+        : rounding(depth_rounding(a, b)), seen_a(a.seen_from(origin_of(a))),
+          seen_b(b.seen_from(origin_of(a))) {}
+
+    double rounding;
+    std::unique_ptr<const WorldSolid> seen_a, seen_b;
+};
+
+FacePolygon polygon_of(const Triangle& t) {
+    return {t[0], t[1], t[2]};
+}
+
+Proof all_points_pass(const WorldSolid& surface, const WorldSolid& solid,
+                      const ReachSearch::Options& options) {
+    ReachSearch search(solid, options);
+    Box3 box = grown(options.both_sides ? surface.world_box() : solid.world_box(), options.rounding);
+    for_each_face_in_reach(surface, box, 0, search, [&](const Triangle& face) {
+        return search.add(polygon_of(face)) == Proof::holds;
+    });
+    return search.proof();
+}
+
+/// Adds a face with its normal outward. If the surface's normals do not tell which side is outside,
+/// points close to the face tell; if these do not tell either, the face is added both ways.
+void add_turned_outward(const Triangle& face, const WorldSolid& solid, std::vector<Triangle>& faces) {
+    const Triangle turned{face[0], face[2], face[1]};
+    if (solid.outward() != 0)
+        return faces.push_back(solid.outward() < 0 ? turned : face);
+    const FaceProbe probe = face_probe(face);
+    const bool over = solid.contains(probe.over), under = solid.contains(probe.under);
+    if (over == under || under)
+        faces.push_back(face);
+    if (over == under || over)
+        faces.push_back(turned);
+}
+
+/// Decides whether no ball that touches the surface of `touched` from inside lies in both.
+Proof no_ball_touches(const WorldSolid& touched, const WorldSolid& other,
+                      const ReachSearch::Options& options) {
+    const double radius = options.limit * (1 + kCentreError);
+    ReachSearch search(other, options);
+    std::vector<Triangle> faces;
+    const Box3 box = grown(other.world_box(), options.rounding);
+    for_each_face_in_reach(touched, box, 2 * radius, search, [&](const Triangle& face) {
+        add_turned_outward(face, touched, faces);
+        return true;
+    });
+    for_each_centre_polygon(faces, radius, [&](const FacePolygon& polygon) {
+        return search.add(polygon) == Proof::holds;
+    });
+    return search.proof();
+}
+
+/// All vertices; none if there are more than are worth a look.
+std::vector<Vec3> vertices_of(const WorldSolid& surface) {
+    constexpr std::size_t kMostVertices = 16384;
+    std::vector<Vec3> vertices;
+    surface.for_each_block(surface.world_box(), [&](const WorldSolid::Block& block) {
+        const std::size_t count = block.model.data().mesh().positions.size();
+        if (vertices.size() + count > kMostVertices) {
+            vertices.clear();
+            return false;
+        }
+        for (std::uint32_t i = 0; i < count; ++i)
+            vertices.push_back(block.model.world_vertex(i));
+        return true;
+    });
+    return vertices;
+}
+
+/// The proof of two statements together.
+template <typename First, typename Second>
+Proof both_hold(const First& first, const Second& second) {
+    const Proof one = first();
+    if (one == Proof::fails)
+        return one;
+    const Proof other = second();
+    return other == Proof::holds ? one : other;
+}
+
+} // namespace
+
+Proof nowhere_deeper(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options) {
+    const SeenPair seen(a, b);
+    const ReachSearch::Options search{
+        .limit = options.tolerance, .rounding = seen.rounding, .budget = options.budget};
+    const auto in = [&](const WorldSolid& surface, const WorldSolid& solid) {
+        return solid.bounds_solid() ? all_points_pass(surface, solid, search) : Proof::holds;
+    };
+    return both_hold([&] { return in(*seen.seen_a, *seen.seen_b); },
+                     [&] { return in(*seen.seen_b, *seen.seen_a); });
+}
+
+Proof nowhere_thicker(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options) {
+    const SeenPair seen(a, b);
+    const auto touching = [&](const WorldSolid& touched, const WorldSolid& other) {
+        return no_ball_touches(touched, other,
+                               {.limit = 0.5 * options.tolerance,
+                                .rounding = seen.rounding,
+                                .own = &touched,
+                                .budget = options.budget});
+    };
+    return both_hold([&] { return touching(*seen.seen_a, *seen.seen_b); },
+                     [&] { return touching(*seen.seen_b, *seen.seen_a); });
+}
+
+Proof everywhere_near(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options) {
+    const SeenPair seen(a, b);
+    const ReachSearch::Options search{.limit = options.tolerance,
+                                      .rounding = seen.rounding,
+                                      .both_sides = true,
+                                      .budget = options.budget};
+    return both_hold([&] { return all_points_pass(*seen.seen_a, *seen.seen_b, search); },
+                     [&] { return all_points_pass(*seen.seen_b, *seen.seen_a, search); });
+}
+
+bool extents_overlap_little(const WorldSolid& a, const WorldSolid& b,
+                            std::span<const Vec3> directions, double tolerance) {
+    const double allowed = tolerance + depth_rounding(a, b);
+    const std::vector<Vec3> of_a = vertices_of(a), of_b = vertices_of(b);
+    if (of_a.empty() || of_b.empty())
+        return false;
+    return std::ranges::any_of(directions, [&](const Vec3& direction) {
+        const Vec3 along = normalized_or_zero(direction);
+        const auto height = [&](const Vec3& p) { return dot(p - of_a[0], along); };
+        const auto [low_a, high_a] = std::ranges::minmax(of_a, {}, height);
+        const auto [low_b, high_b] = std::ranges::minmax(of_b, {}, height);
+        return along != Vec3{} && (height(high_a) - height(low_b) <= allowed ||
+                                   height(high_b) - height(low_a) <= allowed);
+    });
+}
+
+} // namespace abut

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "rigid/solid/world_solid.h"
+#include "rigid/tolerance/reach_search.h"
+
+namespace abut {
+
+/// How two surfaces lie to each other, up to a tolerance t.
+///
+/// All answers are the same for models that are moved together without rounding, and for either
+/// order of a and b. Where the difference between a length and t is below the rounding, the length
+/// counts as t.
+struct ToleranceSearch {
+    double tolerance = 0;           ///< t, positive
+    std::uint32_t budget = 100'000; ///< pieces of faces that may be examined, for each question
+};
+
+/// Decides whether no surface point of a solid lies deeper than t in the other one. One of the two
+/// may be no solid: then only its points count.
+Proof nowhere_deeper(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options);
+
+/// Decides whether the common part of two solids holds no ball of a diameter above t.
+///
+/// In          no surface point of one lies deeper than t in the other.
+/// Accuracy    `fails` is exact: there is a ball of a larger diameter. `holds`: there is none of a
+///             diameter above (1 + 2^-6) t.
+/// Source      If there is such a ball, one of the same size touches a surface from inside. The
+///             centres of balls that touch are on the surface, moved inward by their radius
+///             (ball_centres.h).
+Proof nowhere_thicker(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options);
+
+/// Decides whether each surface is everywhere within t of the other one.
+Proof everywhere_near(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options);
+
+/// Returns whether the extents of both along some direction prove that no point of one lies deeper
+/// than t in the other, and that the common part is nowhere thicker than t: along it, a ends at most
+/// t beyond the begin of b.
+///
+/// In          directions: of any length.
+bool extents_overlap_little(const WorldSolid& a, const WorldSolid& b,
+                            std::span<const Vec3> directions, double tolerance);
+
+} // namespace abut

@@ -1,0 +1,235 @@
+#include "rigid/tolerance/reach_search.h"
+
+#include "core/stop.h"
+#include "geometry/triangle_triangle_intersect.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace abut {
+
+namespace {
+
+/// The planes of a convex cell around a triangle; their normals point out of it.
+using CellPlanes = boost::container::static_vector<CuttingPlane, 8>;
+
+/// The points over and under a triangle, at most `height` from its plane. Empty if the triangle has
+/// no area.
+CellPlanes prism_around(const Triangle& t, double height) {
+    const Vec3 normal = normalized_or_zero(cross(t[1] - t[0], t[2] - t[0]));
+    CellPlanes planes;
+    if (normal == Vec3{})
+        return planes;
+    for (std::size_t i = 0; i < 3; ++i)
+        planes.push_back({t[i], normalized_or_zero(cross(t[(i + 1) % 3] - t[i], normal))});
+    planes.push_back({t[0] + height * normal, normal});
+    planes.push_back({t[0] - height * normal, -normal});
+    return planes;
+}
+
+/// Points within `limit` of a triangle, beyond its edges too: the prism grown by half of the limit
+/// in the triangle's plane, with corners cut off at that distance from the vertices. A point of it
+/// is at most limit / sqrt(2) beside the triangle and limit / sqrt(2) over or under its plane.
+CellPlanes neighbourhood_of(const Triangle& t, double limit) {
+    CellPlanes planes = prism_around(t, limit * 0.70710678);
+    if (planes.empty())
+        return planes;
+    for (std::size_t i = 0; i < 3; ++i)
+        planes[i].point = planes[i].point + 0.5 * limit * planes[i].normal;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 inward = normalized_or_zero(t[(i + 1) % 3] - t[i]) +
+                            normalized_or_zero(t[(i + 2) % 3] - t[i]);
+        const Vec3 outward = -normalized_or_zero(inward);
+        planes.push_back({t[i] + 0.5 * limit * outward, outward});
+    }
+    return planes;
+}
+
+/// Returns a triangle of the surface that shares a point with a polygon, if there is one. Exact for
+/// the polygon's rounded corners.
+std::optional<Triangle> triangle_met_by(const FacePolygon& polygon, const WorldSolid& surface,
+                                         const ReachSearch::Options& options) {
+    std::optional<Triangle> met;
+    const Box3 box = grown(box_of(polygon), options.rounding);
+    surface.for_each_block(box, [&](const WorldSolid::Block& block) {
+        block.model.for_each_overlap(box, [&](std::uint32_t slot) {
+            if (met)
+                return;
+            const Triangle t = block.model.world_slot(slot);
+            for (std::size_t i = 2; i < polygon.size() && !met; ++i)
+                if (triangle_triangle_intersect({polygon[0], polygon[i - 1], polygon[i]}, t) !=
+                    TriangleContact::none)
+                    met = t;
+        });
+        return !met;
+    });
+    return met;
+}
+
+template <typename Slots>
+void remember(Slots& slots, std::uint32_t slot) {
+    if (const auto at = std::find(slots.begin(), slots.end(), slot); at != slots.end())
+        slots.erase(at);
+    if (slots.size() == slots.capacity())
+        slots.pop_back();
+    slots.insert(slots.begin(), slot);
+}
+
+} // namespace
+
+Proof ReachSearch::add(const FacePolygon& polygon) {
+    if (proof_ != Proof::holds || polygon.size() < 3)
+        return proof_;
+    push(polygon, {});
+    while (!waiting_.empty() && proof_ == Proof::holds) {
+        Piece piece = waiting_.back();
+        waiting_.pop_back();
+        poll_stop();
+        if (left_ == 0)
+            proof_ = Proof::open;
+        else
+            --left_, examine(piece);
+    }
+    waiting_.clear();
+    return proof_;
+}
+
+bool ReachSearch::rules_out(const Vec3& middle, double radius) {
+    const double enough = std::max(radius, options_.limit - radius);
+    const WorldSolid::Nearest nearest = solid_.nearest(middle, {.enough = enough});
+    if (nearest.distance + radius <= options_.limit)
+        return true;
+    return !options_.both_sides && nearest.distance > radius + options_.rounding &&
+           !solid_.contains_off_surface(middle);
+}
+
+bool ReachSearch::is_near(const FacePolygon& polygon, const WorldSolid& surface,
+                          const Slots& slots) const {
+    // Twice the rounding: then every piece that is smaller than the rounding is near or beyond.
+    const double limit = options_.limit + 2 * options_.rounding;
+    return std::ranges::any_of(slots, [&](std::uint32_t slot) {
+        const PreparedTriangle& t = surface.prepared_slot(slot);
+        return std::ranges::all_of(
+            polygon, [&](const Vec3& corner) { return t.distance_sq(corner) <= limit * limit; });
+    });
+}
+
+void ReachSearch::examine(Piece& piece) {
+    if (is_near(piece.polygon, solid_, piece.near) || is_near_own(piece))
+        return;
+    Sample sample{middle_of(piece.polygon), 0, {}};
+    sample.radius = reach_from(piece.polygon, sample.point);
+    const std::uint32_t* seed = piece.near.empty() ? nullptr : piece.near.data();
+    sample.nearest = solid_.nearest(sample.point, {.seed = seed});
+    remember(piece.near, sample.nearest.slot);
+    if (is_near(piece.polygon, solid_, {sample.nearest.slot}))
+        return;
+    const double distance = sample.nearest.distance, limit = options_.limit + options_.rounding;
+    if (distance <= limit && divide_near(piece, solid_.prepared_slot(sample.nearest.slot).corners()))
+        return;
+    if (distance > limit && options_.both_sides)
+        return refute(sample.point);
+    if (options_.both_sides)
+        return halve(piece);
+    const std::optional<Triangle> met = distance <= sample.radius + options_.rounding
+                                            ? triangle_met_by(piece.polygon, solid_, options_)
+                                            : std::nullopt;
+    const bool inside = distance > options_.rounding && solid_.contains_off_surface(sample.point);
+    if (!met && !inside && distance > options_.rounding)
+        return;
+    if (options_.own != nullptr) {
+        if (settled_by_own(piece, sample, distance > limit && inside))
+            return;
+    } else if (distance > limit && inside) {
+        return refute(sample.point);
+    }
+    if (met && divide_near(piece, *met))
+        return;
+    halve(piece);
+}
+
+/// Looks at the second surface. Returns whether the piece needs no further look: it is proven,
+/// refuted or divided.
+bool ReachSearch::settled_by_own(Piece& piece, const Sample& sample, bool deep) {
+    const WorldSolid& own = *options_.own;
+    const double limit = options_.limit + options_.rounding;
+    const WorldSolid::Nearest nearest = own.nearest(sample.point, {.enough = limit});
+    remember(piece.near_own, nearest.slot);
+    if (nearest.distance <= limit)
+        return is_near_own(piece) || divide_near(piece, own.prepared_slot(nearest.slot).corners());
+    if (own.contains_off_surface(sample.point)) {
+        if (deep)
+            refute(sample.point);
+        return deep;
+    }
+    if (nearest.distance > sample.radius + options_.rounding)
+        return true;
+    const std::optional<Triangle> met = triangle_met_by(piece.polygon, own, options_);
+    return !met || divide_near(piece, *met);
+}
+
+bool ReachSearch::is_near_own(const Piece& piece) const {
+    return options_.own != nullptr && is_near(piece.polygon, *options_.own, piece.near_own);
+}
+
+void ReachSearch::refute(const Vec3& point) {
+    proof_ = Proof::fails;
+    counterexample_ = point;
+}
+
+/// Cuts away the part of a piece that a cell around a triangle proves to be near. Returns false if
+/// that would leave the piece whole.
+bool ReachSearch::divide_near(const Piece& piece, const Triangle& t) {
+    const auto try_cell = [&](const CellPlanes& planes) {
+        return cut_away(piece, {planes.data(), planes.size()});
+    };
+    return try_cell(prism_around(t, options_.limit)) ||
+           try_cell(neighbourhood_of(t, options_.limit));
+}
+
+bool ReachSearch::cut_away(const Piece& piece, std::span<const CuttingPlane> cell) {
+    boost::container::static_vector<FacePolygon, 8> outside;
+    FacePolygon inside = piece.polygon;
+    for (const CuttingPlane& plane : cell) {
+        const CutPolygon parts = cut(inside, plane, options_.rounding);
+        if (parts.inside.empty())
+            return false;
+        if (!parts.outside.empty())
+            outside.push_back(parts.outside);
+        inside = parts.inside;
+    }
+    if (cell.empty())
+        return false;
+    for (const FacePolygon& polygon : outside)
+        push(polygon, piece);
+    return true;
+}
+
+void ReachSearch::push(const FacePolygon& polygon, const Piece& parent) {
+    if (polygon.size() < 3)
+        return;
+    if (polygon.size() <= kMostCornersToCut) {
+        waiting_.push_back({polygon, parent.near, parent.near_own});
+        return;
+    }
+    const std::size_t half = polygon.size() / 2;
+    FacePolygon first(polygon.begin(), polygon.begin() + half + 1),
+        second(polygon.begin() + half, polygon.end());
+    second.push_back(polygon[0]);
+    push(first, parent);
+    push(second, parent);
+}
+
+void ReachSearch::halve(const Piece& piece) {
+    const CutPolygon parts = halved(piece.polygon, 0);
+    if (parts.inside.empty() || parts.outside.empty()) {
+        proof_ = Proof::open; // the piece is smaller than the rounding of its coordinates
+        return;
+    }
+    push(parts.inside, piece);
+    push(parts.outside, piece);
+}
+
+} // namespace abut

@@ -1,0 +1,90 @@
+#pragma once
+
+#include "rigid/solid/world_solid.h"
+#include "rigid/tolerance/face_polygon.h"
+
+#include <boost/container/static_vector.hpp>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace abut {
+
+/// What is known about a question whose search may be given up.
+enum class Proof : std::uint8_t {
+    holds, ///< proven
+    fails, ///< a counterexample was found
+    open,  ///< the budget is used up
+};
+
+/// Decides whether all points of some polygons are outside a solid or near its surface.
+///
+/// A point x is *beyond* if it lies in the solid farther than the limit from the solid's surface.
+/// With a second surface, x must also be farther than the limit from that one, and inside it.
+///
+/// In          all in one frame, near its origin. Only one thread may use the solids.
+/// Accuracy    a point found beyond is so by more than the rounding. If none is found and the budget
+///             suffices, no point is beyond by more than the rounding.
+/// Source      The distance to a convex set is convex. So a polygon whose corners are all within the
+///             limit of one triangle has no point beyond it. A polygon that is not proven so is cut
+///             by the planes that bound a convex cell around the nearest triangle; every point of
+///             the cell is within the limit of the triangle. Flush faces are thus proven by the
+///             corners of few pieces, and not by pieces of the size of the limit. A polygon that
+///             shares no point with the surface lies on one side of it.
+class ReachSearch {
+public:
+    struct Options {
+        double limit = 0;
+        double rounding = 0;            ///< of distances between points of the surfaces
+        const WorldSolid* own = nullptr; ///< the second surface, if any
+        /// Also points outside count: decides whether all points are near the surface.
+        bool both_sides = false;
+        std::uint32_t budget = 0; ///< pieces that may be examined, in all polygons together
+    };
+    ReachSearch(const WorldSolid& solid, const Options& options)
+        : solid_(solid), options_(options), left_(options.budget) {}
+
+    /// Examines one more polygon, unless one before was not proven.
+    Proof add(const FacePolygon& polygon);
+    /// The answer about all polygons so far.
+    [[nodiscard]] Proof proof() const { return proof_; }
+    /// If the proof fails: a point that is beyond.
+    [[nodiscard]] const Vec3& counterexample() const { return counterexample_; }
+
+    /// Examines a ball that encloses faces. Returns whether no point of it is beyond; none if that
+    /// needs a look at the faces.
+    [[nodiscard]] bool rules_out(const Vec3& middle, double radius);
+
+private:
+    using Slots = boost::container::static_vector<std::uint32_t, 4>;
+    struct Piece {
+        FacePolygon polygon;
+        Slots near{}, near_own{}; ///< triangles that enclosing pieces were near to, the latest first
+    };
+    /// The piece's middle and what is known about it.
+    struct Sample {
+        Vec3 point;
+        double radius = 0; ///< of a ball around the point that holds the piece
+        WorldSolid::Nearest nearest;
+    };
+
+    void examine(Piece& piece);
+    [[nodiscard]] bool is_near(const FacePolygon& polygon, const WorldSolid& surface,
+                               const Slots& slots) const;
+    [[nodiscard]] bool is_near_own(const Piece& piece) const;
+    [[nodiscard]] bool settled_by_own(Piece& piece, const Sample& sample, bool deep);
+    void refute(const Vec3& point);
+    [[nodiscard]] bool divide_near(const Piece& piece, const Triangle& t);
+    [[nodiscard]] bool cut_away(const Piece& piece, std::span<const CuttingPlane> cell);
+    void push(const FacePolygon& polygon, const Piece& parent);
+    void halve(const Piece& piece);
+
+    const WorldSolid& solid_;
+    const Options options_;
+    std::uint32_t left_;
+    Proof proof_ = Proof::holds;
+    Vec3 counterexample_;
+    std::vector<Piece> waiting_;
+};
+
+} // namespace abut
