@@ -134,6 +134,8 @@ std::optional<Clash> classify_apart(PartPair& pair, double clearance, double tou
                  : touches ? ClashKind::touch
                            : ClashKind::clearance;
     clash.distance = contained ? -gap.distance : gap.distance;
+    if (touches && gap.distance <= depth_rounding(pair.a().solid(), pair.b().solid()))
+        clash.distance = 0; // rounding may have made the gap
     clash.point_a = gap.point_a, clash.point_b = gap.point_b;
     const Vec3 away = normalized_or_zero(gap.point_b - gap.point_a);
     clash.direction = contained ? -away : away;

@@ -36,9 +36,9 @@ PairAnswer test_pair(const ClashPart& a, std::string_view id_a, const ClashPart&
             return true;
         if (answer.clash->kind != ClashKind::hard && answer.clash->kind != ClashKind::undecided)
             return false;
-        const std::optional<Clash> met =
-            terms.tolerated > terms.touch ? classify_by_id(a, id_a, b, id_b, 0, terms.tolerated)
-                                          : answer.clash;
+        const std::optional<Clash> met = terms.tolerated > terms.touch
+                                             ? classify_by_id(a, id_a, b, id_b, 0, terms.tolerated)
+                                             : answer.clash;
         return met && met->kind == ClashKind::touch;
     };
     answer.left_out = why_left_out(*answer.clash, is_tolerated(), terms);

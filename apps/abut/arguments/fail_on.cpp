@@ -92,10 +92,12 @@ void FailOn::parse_condition(const std::string& text, const FailOnScope& scope) 
 }
 
 bool FailOn::is_listed(const Clash& clash) const {
-    const auto lists = [&](ClashKind kind) { return std::ranges::find(kinds_, kind) != kinds_.end(); };
+    const auto lists = [&](ClashKind kind) {
+        return std::ranges::find(kinds_, kind) != kinds_.end();
+    };
     // An undecided clash may be of either kind.
-    const bool may_be_listed = clash.kind == ClashKind::undecided &&
-                               (lists(ClashKind::hard) || lists(ClashKind::touch));
+    const bool may_be_listed =
+        clash.kind == ClashKind::undecided && (lists(ClashKind::hard) || lists(ClashKind::touch));
     return (lists(clash.kind) || may_be_listed) &&
            (!clash.status || std::ranges::find(statuses_, *clash.status) != statuses_.end());
 }

@@ -27,7 +27,8 @@ CutPolygon cut(const FacePolygon& polygon, const CuttingPlane& plane, double rou
         if (over[i] >= 0)
             parts.outside.push_back(polygon[i]);
         if ((over[i] < 0 && over[j] > 0) || (over[i] > 0 && over[j] < 0)) {
-            const Vec3 on = polygon[i] + (over[i] / (over[i] - over[j])) * (polygon[j] - polygon[i]);
+            const Vec3 on =
+                polygon[i] + (over[i] / (over[i] - over[j])) * (polygon[j] - polygon[i]);
             parts.inside.push_back(on);
             parts.outside.push_back(on);
         }

@@ -13,7 +13,6 @@ namespace abut {
 /// In          box: of the points that matter; other faces are left out. `around`: how far from its
 ///             face a point that the search asks about may be.
 void for_each_face_in_reach(const WorldSolid& surface, const Box3& box, double around,
-                            ReachSearch& search,
-                            const std::function<bool(const Triangle&)>& visit);
+                            ReachSearch& search, const std::function<bool(const Triangle&)>& visit);
 
 } // namespace abut

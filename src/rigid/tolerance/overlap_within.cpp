@@ -37,7 +37,8 @@ FacePolygon polygon_of(const Triangle& t) {
 Proof all_points_pass(const WorldSolid& surface, const WorldSolid& solid,
                       const ReachSearch::Options& options) {
     ReachSearch search(solid, options);
-    Box3 box = grown(options.both_sides ? surface.world_box() : solid.world_box(), options.rounding);
+    Box3 box =
+        grown(options.both_sides ? surface.world_box() : solid.world_box(), options.rounding);
     for_each_face_in_reach(surface, box, 0, search, [&](const Triangle& face) {
         return search.add(polygon_of(face)) == Proof::holds;
     });
@@ -46,7 +47,8 @@ Proof all_points_pass(const WorldSolid& surface, const WorldSolid& solid,
 
 /// Adds a face with its normal outward. If the surface's normals do not tell which side is outside,
 /// points close to the face tell; if these do not tell either, the face is added both ways.
-void add_turned_outward(const Triangle& face, const WorldSolid& solid, std::vector<Triangle>& faces) {
+void add_turned_outward(const Triangle& face, const WorldSolid& solid,
+                        std::vector<Triangle>& faces) {
     const Triangle turned{face[0], face[2], face[1]};
     if (solid.outward() != 0)
         return faces.push_back(solid.outward() < 0 ? turned : face);

@@ -39,8 +39,8 @@ CellPlanes neighbourhood_of(const Triangle& t, double limit) {
     for (std::size_t i = 0; i < 3; ++i)
         planes[i].point = planes[i].point + 0.5 * limit * planes[i].normal;
     for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3 inward = normalized_or_zero(t[(i + 1) % 3] - t[i]) +
-                            normalized_or_zero(t[(i + 2) % 3] - t[i]);
+        const Vec3 inward =
+            normalized_or_zero(t[(i + 1) % 3] - t[i]) + normalized_or_zero(t[(i + 2) % 3] - t[i]);
         const Vec3 outward = -normalized_or_zero(inward);
         planes.push_back({t[i] + 0.5 * limit * outward, outward});
     }
@@ -50,7 +50,7 @@ CellPlanes neighbourhood_of(const Triangle& t, double limit) {
 /// Returns a triangle of the surface that shares a point with a polygon, if there is one. Exact for
 /// the polygon's rounded corners.
 std::optional<Triangle> triangle_met_by(const FacePolygon& polygon, const WorldSolid& surface,
-                                         const ReachSearch::Options& options) {
+                                        const ReachSearch::Options& options) {
     std::optional<Triangle> met;
     const Box3 box = grown(box_of(polygon), options.rounding);
     surface.for_each_block(box, [&](const WorldSolid::Block& block) {
@@ -81,6 +81,8 @@ void remember(Slots& slots, std::uint32_t slot) {
 
 Proof ReachSearch::add(const FacePolygon& polygon) {
     if (proof_ != Proof::holds || polygon.size() < 3)
+        return proof_;
+    if (!options_.both_sides && !overlap(box_of(polygon), box_))
         return proof_;
     push(polygon, {});
     while (!waiting_.empty() && proof_ == Proof::holds) {
@@ -127,7 +129,8 @@ void ReachSearch::examine(Piece& piece) {
     if (is_near(piece.polygon, solid_, {sample.nearest.slot}))
         return;
     const double distance = sample.nearest.distance, limit = options_.limit + options_.rounding;
-    if (distance <= limit && divide_near(piece, solid_.prepared_slot(sample.nearest.slot).corners()))
+    if (distance <= limit &&
+        divide_near(piece, solid_.prepared_slot(sample.nearest.slot).corners()))
         return;
     if (distance > limit && options_.both_sides)
         return refute(sample.point);
@@ -136,7 +139,7 @@ void ReachSearch::examine(Piece& piece) {
     const std::optional<Triangle> met = distance <= sample.radius + options_.rounding
                                             ? triangle_met_by(piece.polygon, solid_, options_)
                                             : std::nullopt;
-    const bool inside = distance > options_.rounding && solid_.contains_off_surface(sample.point);
+    const bool inside = distance > options_.rounding && is_inside(solid_, sample.point, piece.side);
     if (!met && !inside && distance > options_.rounding)
         return;
     if (options_.own != nullptr) {
@@ -155,11 +158,12 @@ void ReachSearch::examine(Piece& piece) {
 bool ReachSearch::settled_by_own(Piece& piece, const Sample& sample, bool deep) {
     const WorldSolid& own = *options_.own;
     const double limit = options_.limit + options_.rounding;
-    const WorldSolid::Nearest nearest = own.nearest(sample.point, {.enough = limit});
+    const std::uint32_t* seed = piece.near_own.empty() ? nullptr : piece.near_own.data();
+    const WorldSolid::Nearest nearest = own.nearest(sample.point, {.seed = seed});
     remember(piece.near_own, nearest.slot);
     if (nearest.distance <= limit)
         return is_near_own(piece) || divide_near(piece, own.prepared_slot(nearest.slot).corners());
-    if (own.contains_off_surface(sample.point)) {
+    if (is_inside(own, sample.point, piece.side_of_own)) {
         if (deep)
             refute(sample.point);
         return deep;
@@ -168,6 +172,15 @@ bool ReachSearch::settled_by_own(Piece& piece, const Sample& sample, bool deep) 
         return true;
     const std::optional<Triangle> met = triangle_met_by(piece.polygon, own, options_);
     return !met || divide_near(piece, *met);
+}
+
+/// Tells the side of a point off the surface, from a point nearby if the side of one is known.
+bool ReachSearch::is_inside(const WorldSolid& surface, const Vec3& point, KnownSide& known) {
+    const bool inside = known.inside
+                            ? surface.contains_off_surface(point, known.point, *known.inside)
+                            : surface.contains_off_surface(point);
+    known = {point, inside};
+    return inside;
 }
 
 bool ReachSearch::is_near_own(const Piece& piece) const {
@@ -211,7 +224,9 @@ void ReachSearch::push(const FacePolygon& polygon, const Piece& parent) {
     if (polygon.size() < 3)
         return;
     if (polygon.size() <= kMostCornersToCut) {
-        waiting_.push_back({polygon, parent.near, parent.near_own});
+        Piece piece = parent;
+        piece.polygon = polygon;
+        waiting_.push_back(piece);
         return;
     }
     const std::size_t half = polygon.size() / 2;

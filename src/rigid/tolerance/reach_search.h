@@ -5,6 +5,7 @@
 
 #include <boost/container/static_vector.hpp>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,14 +36,15 @@ class ReachSearch {
 public:
     struct Options {
         double limit = 0;
-        double rounding = 0;            ///< of distances between points of the surfaces
+        double rounding = 0;             ///< of distances between points of the surfaces
         const WorldSolid* own = nullptr; ///< the second surface, if any
         /// Also points outside count: decides whether all points are near the surface.
         bool both_sides = false;
         std::uint32_t budget = 0; ///< pieces that may be examined, in all polygons together
     };
     ReachSearch(const WorldSolid& solid, const Options& options)
-        : solid_(solid), options_(options), left_(options.budget) {}
+        : solid_(solid), options_(options),
+          box_(grown(solid.world_box(), options.limit + options.rounding)), left_(options.budget) {}
 
     /// Examines one more polygon, unless one before was not proven.
     Proof add(const FacePolygon& polygon);
@@ -57,9 +59,16 @@ public:
 
 private:
     using Slots = boost::container::static_vector<std::uint32_t, 4>;
+    /// On which side of a surface a point lies that was tested.
+    struct KnownSide {
+        Vec3 point;
+        std::optional<bool> inside;
+    };
     struct Piece {
         FacePolygon polygon;
-        Slots near{}, near_own{}; ///< triangles that enclosing pieces were near to, the latest first
+        /// Triangles that enclosing pieces were near to, the latest first.
+        Slots near{}, near_own{};
+        KnownSide side{}, side_of_own{};
     };
     /// The piece's middle and what is known about it.
     struct Sample {
@@ -74,6 +83,7 @@ private:
     [[nodiscard]] bool is_near_own(const Piece& piece) const;
     [[nodiscard]] bool settled_by_own(Piece& piece, const Sample& sample, bool deep);
     void refute(const Vec3& point);
+    static bool is_inside(const WorldSolid& surface, const Vec3& point, KnownSide& known);
     [[nodiscard]] bool divide_near(const Piece& piece, const Triangle& t);
     [[nodiscard]] bool cut_away(const Piece& piece, std::span<const CuttingPlane> cell);
     void push(const FacePolygon& polygon, const Piece& parent);
@@ -81,6 +91,7 @@ private:
 
     const WorldSolid& solid_;
     const Options options_;
+    const Box3 box_; ///< points outside of it are neither in the solid nor near it
     std::uint32_t left_;
     Proof proof_ = Proof::holds;
     Vec3 counterexample_;

@@ -129,11 +129,11 @@ class SheetPair {
 public:
     SheetPair(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts,
               const Vec3& shift, double tolerance)
-        : solids_{&a, &b}, sheets_{Sheet(a, {}), Sheet(b, shift)}, contacts_(contacts),
-          options_{.limit = tolerance,
-                   .rounding = depth_rounding(a, b) + length(shift),
-                   .both_sides = true,
-                   .budget = kBudget},
+        : solids_{&a, &b}, sheets_{Sheet(a, {}), Sheet(b, shift)},
+          contacts_(contacts), options_{.limit = tolerance,
+                                        .rounding = depth_rounding(a, b) + length(shift),
+                                        .both_sides = true,
+                                        .budget = kBudget},
           curves_(contacts.size()) {
         for (std::uint32_t c = 0; c < contacts.size(); ++c)
             for (std::size_t side = 0; side < 2; ++side)
@@ -153,7 +153,8 @@ public:
             }
         Proof all = Proof::holds;
         for (const auto& [curve, known] : ends)
-            all = both(all, either(known[0].value_or(Proof::fails), known[1].value_or(Proof::fails)));
+            all =
+                both(all, either(known[0].value_or(Proof::fails), known[1].value_or(Proof::fails)));
         return all;
     }
 
@@ -234,8 +235,8 @@ private:
 
     /// Adds what lies between the corners of a crossed triangle that are in the part and the curve.
     template <typename Add>
-    bool add_beyond_curve(std::size_t side, std::uint32_t triangle, const std::vector<Vec3>& in_part,
-                          const Add& add) const {
+    bool add_beyond_curve(std::size_t side, std::uint32_t triangle,
+                          const std::vector<Vec3>& in_part, const Add& add) const {
         const auto contacts = contacts_of_[side].find(triangle);
         if (contacts == contacts_of_[side].end()) { // crossed only since the shift
             const Triangle& t = sheets_[side].triangle(triangle);
@@ -266,7 +267,8 @@ private:
     std::span<const Contact> contacts_;
     ReachSearch::Options options_;
     DisjointSets curves_; ///< of contacts
-    std::array<std::map<std::uint32_t, std::vector<std::uint32_t>>, 2> contacts_of_; ///< by triangle
+    std::array<std::map<std::uint32_t, std::vector<std::uint32_t>>, 2>
+        contacts_of_; ///< by triangle
     std::array<std::optional<Parts>, 2> parts_;
     std::array<std::map<std::uint32_t, Proof>, 2> near_; ///< by part
     std::array<std::unique_ptr<const WorldSolid>, 2> seen_;
