@@ -168,4 +168,7 @@ if(names)
     string(APPEND own "${rule}Contained in this package are parts of:\n${names}"
            "Their notices follow as their packages have them. Those also speak of files that are not in here.")
 endif()
-file(WRITE ${OUTPUT} "${own}${sections}\n")
+# Two installations at once may make the same file: each finds a whole one.
+string(RANDOM LENGTH 12 part)
+file(WRITE ${OUTPUT}.${part} "${own}${sections}\n")
+file(RENAME ${OUTPUT}.${part} ${OUTPUT})
