@@ -47,12 +47,7 @@ inline MovingMesh folded_sheet(Random& random, int n, FrameNumbers numbers) {
         return Vec3{fold(u), fold(v), kGap * (along + kFolds * turns(v))} +
                random.in_cube(0.3 * cell);
     });
-    for (const Vec3& p : moving.mesh.positions) {
-        const double pinch = 1 - 0.3 * std::exp(-4 * (p.x - 0.5) * (p.x - 0.5));
-        moving.end.push_back(Vec3{p.x + 0.2 * p.z, 0.5 + pinch * (p.y - 0.5), 0.2 * p.z} +
-                             random.in_cube(0.2 * cell));
-    }
-    // Some vertices come to rest on a face, an edge or a vertex, as far as rounding allows.
+    // Some vertices lie on a face, an edge or a vertex, as far as rounding allows.
     const auto place = [&](std::vector<Vec3>& points) {
         for (Vec3& p : points) {
             const auto& t = moving.mesh.triangles[static_cast<std::size_t>(
@@ -60,13 +55,20 @@ inline MovingMesh folded_sheet(Random& random, int n, FrameNumbers numbers) {
             const Vec3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
             const double s = random.integer(0, 4) / 4.0, h = random.integer(0, 4) / 4.0 * (1 - s);
             const Vec3 to = a + s * (b - a) + h * (c - a);
-            if (random.chance(0.5) && length(to - p) < 2 * cell)
+            if (random.chance(0.5) && length(to - p) < cell)
                 p = to;
         }
     };
-    if (numbers != FrameNumbers::lattice)
-        for (int round = 0; round < 3; ++round)
-            place(moving.end);
+    const bool places = numbers != FrameNumbers::lattice;
+    if (places)
+        place(moving.mesh.positions);
+    for (const Vec3& p : moving.mesh.positions) {
+        const double pinch = 1 - 0.3 * std::exp(-4 * (p.x - 0.5) * (p.x - 0.5));
+        moving.end.push_back(Vec3{p.x + 0.2 * p.z, 0.5 + pinch * (p.y - 0.5), 0.2 * p.z} +
+                             random.in_cube(0.2 * cell));
+    }
+    for (int round = 0; places && round < 3; ++round)
+        place(moving.end);
     const double steps = numbers == FrameNumbers::lattice ? 32 : 0x1p22;
     const Vec3 origin = numbers == FrameNumbers::far ? Vec3{1e6, -1e6, 1e6} : Vec3{};
     for (auto* points : {&moving.mesh.positions, &moving.end})

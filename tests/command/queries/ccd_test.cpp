@@ -215,10 +215,10 @@ TEST_F(CcdCommand, WritesWhatTheLibraryFinds) {
 /// Frames that fold hard; integers say which features meet.
 TEST_F(CcdCommand, WritesEveryTrueImpactAndNoOther) {
     Random random(4217);
-    const MovingMesh moving = folded_sheet(random, 6, FrameNumbers::floats);
+    const MovingMesh moving = folded_sheet(random, 9, FrameNumbers::floats);
     const SymbolicTruth truth(moving);
-    ASSERT_GT(truth.counts.vertex_face, 100U);
-    ASSERT_GT(truth.counts.edge_edge, 400U);
+    ASSERT_GT(truth.counts.vertex_face, 40U);
+    ASSERT_GT(truth.counts.edge_edge, 200U);
     const auto files = frames({moving.mesh, {moving.end, moving.mesh.triangles}});
     const std::string out = folder_ / "impacts.bin";
     const auto step = answer(files, {"--out", out})["steps"].at(0);

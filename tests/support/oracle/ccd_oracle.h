@@ -121,7 +121,7 @@ int sign_throughout(const Poly<Int>& g, const DyadicTime<Int>& low) {
     // Coefficients of g((n + s) / 2^k), times a power of 2.
     Poly<Int> q = g;
     for (std::size_t i = 0; i < n; ++i)
-        q[i] <<= low.k * static_cast<unsigned>(n - 1 - i);
+        q[i] *= Int(1) << (low.k * static_cast<unsigned>(n - 1 - i)); // shifts take no sign
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = n - 1; j > i; --j)
             q[j - 1] += low.n * q[j];
