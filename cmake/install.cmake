@@ -49,6 +49,9 @@ install(CODE "if(NOT EXISTS \"${PROJECT_SOURCE_DIR}/src/io/ifc/node_modules/web-
     message(STATUS \"Without web-ifc: IFC files will be refused. tools/install_dependencies build gets it.\")
 endif()" COMPONENT command)
 
+# The licence and the notices of all. Each Debian package has its own: package.cmake.
+abut_install_copyright(notices share/doc/abut "lib;render;command;reader;ifc;mpi;walk" ALWAYS)
+
 # find_package(Abut).
 configure_package_config_file(cmake/AbutConfig.cmake.in ${PROJECT_BINARY_DIR}/AbutConfig.cmake
                               INSTALL_DESTINATION ${cmake_files})

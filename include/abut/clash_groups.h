@@ -59,8 +59,8 @@ const char* to_string(GroupChange change);
 
 /// Clashes that share a property. Groups can hold groups: those of the next criterion.
 struct ClashGroup {
-    /// 16 hexadecimal digits: hash of `key` and of the groups around this one. It depends neither
-    /// on the order of files and parts nor on the other groups. A store keeps ids from job to job.
+    /// 16 hexadecimal digits; docs/clash-groups.md says of what. They do not depend on the order of
+    /// files and parts. A store keeps ids from job to job.
     std::string id;
     std::string name; ///< one line for people
     std::string what; ///< the types that clash, most frequent first: "14 IfcPipeSegment, 2 IfcBeam"

@@ -55,8 +55,8 @@ struct ManifoldOptions {
 ///             finite. Error{bad_mesh} if a transform without an inverse moves positions out of
 ///             range. Error{interrupted} if the stop flag is set.
 /// Cost        that of `collide` for all contacts, that of the regions, which is linear but for
-///             sorting, and of rays: at most 170 for a region of at most 24 triangle pairs, else at
-///             most 70. Also that of `penetration` if a solid lies inside the other, if triangles
+///             sorting, and of rays: at most 164 for a region of at most 24 triangle pairs, else at
+///             most 68. Also that of `penetration` if a solid lies inside the other, if triangles
 ///             of a region only touch and share no area that parts the models, or if a region that
 ///             crosses also has faces that lie in one plane, to rounding, and look the same way.
 ///             The first query of a model analyses which solid it bounds.

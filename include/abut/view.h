@@ -96,11 +96,11 @@ struct ViewOptions {
     double pixel_error = 1;
     std::uint64_t triangle_budget = 500'000;
     std::uint32_t draw_budget = 1'500;
-    /// Bytes of chunks that one frame hands to the renderer, or one chunk. A frame after `wait` has
-    /// no such limit.
+    /// Bytes of chunks that one frame hands to the renderer, or one chunk. A frame after `wait`, and
+    /// every frame without `background`, has no such limit.
     std::uint64_t upload_budget = std::uint64_t{4} << 20;
     double look_ahead = 1;  ///< seconds of the predicted path for which chunks are read ahead
-    bool background = true; ///< whether a second thread reads; otherwise `frame` reads all it needs
+    bool background = true; ///< whether a second thread reads; otherwise `frame` waits for the disk
 };
 
 /// A part of a view: its row in the store's table `part`.
@@ -132,17 +132,20 @@ public:
     View(View&&) noexcept;
     View& operator=(View&&) noexcept;
 
-    /// Chooses what to draw. It never waits for the disk: what is missing is loaded in the
-    /// background, and a coarser level stands for it until then.
+    /// Chooses what to draw. With ViewOptions::background it never waits for the disk: a second
+    /// thread reads what is missing, and a coarser level stands for it until then. Without, it
+    /// reads all that the frame wants and the memory holds, before it returns.
     ///
     /// In          velocity: of the eye, in units a second, for loading ahead.
     /// Errors      Error{bad_argument} if the camera is not valid; Error{malformed} if a chunk that
     ///             was read is damaged.
     /// Cost        O(n log n) of the n chunks and instances drawn and those that they replace,
-    ///             whatever the size of the store; and at most ViewOptions::upload_budget of
-    ///             chunks change hands.
+    ///             whatever the size of the store. With ViewOptions::background at most
+    ///             ViewOptions::upload_budget of chunks change hands; without, reading takes as
+    ///             long as the disk takes.
     const ViewFrame& frame(const Camera& camera, const Vec3& velocity = {});
-    /// Waits until all that the last frame wanted is loaded, or memory is full. The next frame
+    /// Waits until all that the last frame wanted is loaded, or memory is full; without
+    /// ViewOptions::background there is nothing to wait for. The next frame
     /// shows it. If a chunk cannot be read, it returns at once and the next frame throws the Error.
     void wait();
 

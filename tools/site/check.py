@@ -6,6 +6,8 @@ import urllib.parse
 
 SILENT = {"pre", "code", "script", "style", "svg", "nav"}
 HOST = re.compile(r"https?://")
+# A script, a style or a font by its full address, as text of a script.
+SCRIPT_OF_A_HOST = re.compile(r"""https?://[^\s"'`)]+\.(?:m?js|css|woff2?)(?=["'`])""")
 FETCHED = {("script", "src"), ("img", "src"), ("link", "href"), ("iframe", "src"), ("source", "src"), ("video", "src")}
 LEFT_OVER = re.compile(r"^(?:\s*[-*] \S|\s*\|.*\|\s*$|#+ )|```|\]\([\w./#-]+\)", re.M)
 
@@ -60,8 +62,10 @@ def faults(out):
                 found.append(f"{name}: links to {link}, an anchor that is not there")
     for path in [*out.rglob("*.css"), *out.rglob("*.js")]:
         text = path.read_text(errors="replace")
-        for fetched in re.findall(r"(?:url\(|@import |fetch\(|importScripts\(|unpkg\.com|\bcdn\.)[\"']?(?:https?:)?//[^\"')]+", text):
+        for fetched in re.findall(r"(?:url\(|@import |fetch\(|importScripts\()[\"']?(?:https?:)?//[^\"')]+", text):
             found.append(f"{path.relative_to(out)}: fetches {fetched}")
-        if "unpkg.com" in text or "googleapis.com" in text:
+        for fetched in SCRIPT_OF_A_HOST.findall(text):
+            found.append(f"{path.relative_to(out)}: names {fetched}")
+        if "googleapis.com" in text:
             found.append(f"{path.relative_to(out)}: names another host")
     return sorted(set(found))

@@ -42,9 +42,10 @@ struct PairEstimate {
 };
 
 /// Tells whether two bodies touch now, and bounds when they may meet. Bounds are tried in the order
-/// of their cost; the first that proves the bodies apart ends the search: enclosing balls, boxes, the
-/// last measured distance less what the bodies have moved since, a plane between the bodies, the
-/// distance of their surfaces.
+/// of their cost: enclosing balls and boxes, the last measured distance less what the bodies have
+/// moved since, a plane between the bodies, the distance of their surfaces. The first that proves the
+/// bodies apart ends the search; the last measured distance does so only if it leaves more than a
+/// step free.
 ///
 /// In          step: the time until the next test. A distance of surfaces that hardly ever buys
 ///             more than a few steps is replaced by a test for contact; first_idle: so is the first

@@ -6,6 +6,7 @@
 #include "tests/command/impact_file.h"
 #include "tests/command/models.h"
 #include "tests/command/run_command.h"
+#include "tests/support/folded_frames.h"
 #include "tests/support/random.h"
 
 #include <csignal>
@@ -208,6 +209,28 @@ TEST_F(CcdCommand, WritesWhatTheLibraryFinds) {
         EXPECT_EQ(outcome.status, 0) << outcome.err;
         EXPECT_EQ(outcome.out, "");
         EXPECT_EQ(read_impacts(bin), expected);
+    }
+}
+
+/// Frames that fold hard; integers say which features meet.
+TEST_F(CcdCommand, WritesEveryTrueImpactAndNoOther) {
+    Random random(4217);
+    const MovingMesh moving = folded_sheet(random, 9, FrameNumbers::floats);
+    const SymbolicTruth truth(moving);
+    ASSERT_GT(truth.counts.vertex_face, 40U);
+    ASSERT_GT(truth.counts.edge_edge, 200U);
+    const auto files = frames({moving.mesh, {moving.end, moving.mesh.triangles}});
+    const std::string out = folder_ / "impacts.bin";
+    const auto step = answer(files, {"--out", out})["steps"].at(0);
+    EXPECT_EQ(step["vertex_face"], truth.counts.vertex_face);
+    EXPECT_EQ(step["edge_edge"], truth.counts.edge_edge);
+    const auto written = read_impacts(out);
+    ASSERT_EQ(written.size(), truth.impacts.size());
+    for (std::size_t i = 0; i < written.size(); ++i) {
+        const auto& [ids, first] = truth.impacts[i];
+        ASSERT_EQ(list_order(written[i].impact), list_order(ids)) << i;
+        EXPECT_LE(written[i].impact.time, first.high);
+        EXPECT_GE(written[i].impact.time, first.low - 1e-9);
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "tests/support/oracle/exact_oracle.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -110,6 +111,37 @@ int sign_at(const Poly<Int>& p, const DyadicTime<Int>& t) {
     return sign_of(sum);
 }
 
+/// The sign of g from a time n / 2^k to (n + 1) / 2^k, if all its Bernstein coefficients there have
+/// it; else 0. It only saves work: 0 says nothing.
+template <typename Int>
+int sign_throughout(const Poly<Int>& g, const DyadicTime<Int>& low) {
+    const std::size_t n = g.size();
+    if (n == 0)
+        return 0;
+    // Coefficients of g((n + s) / 2^k), times a power of 2.
+    Poly<Int> q = g;
+    for (std::size_t i = 0; i < n; ++i)
+        q[i] *= Int(1) << (low.k * static_cast<unsigned>(n - 1 - i)); // shifts take no sign
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = n - 1; j > i; --j)
+            q[j - 1] += low.n * q[j];
+    // Coefficient i is the sum of q[j] binomial(i, j) / binomial(n - 1, j).
+    std::vector<Int> factorial(n, Int(1));
+    for (std::size_t i = 1; i < n; ++i)
+        factorial[i] = factorial[i - 1] * static_cast<int>(i);
+    int found = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        Int sum = 0;
+        for (std::size_t j = 0; j <= i; ++j)
+            sum += q[j] * (factorial[i] / factorial[i - j] * factorial[n - 1 - j]);
+        const int sign = sign_of(sum);
+        if (sign == 0 || sign * found < 0)
+            return 0;
+        found = sign;
+    }
+    return found;
+}
+
 /// Sturm chain: p, q, then the negated remainder of each two successive ones.
 template <typename Int>
 std::vector<Poly<Int>> sturm_chain(const Poly<Int>& p, const Poly<Int>& q) {
@@ -146,6 +178,8 @@ public:
     [[nodiscard]] int sign(const Poly<Int>& g) const {
         if (is_high())
             return sign_at(g, high_);
+        if (const int sign = sign_throughout(g, low_))
+            return sign;
         const auto chain = sturm_chain(p_, times(derived(p_), g));
         return variations(chain, low_) - variations(chain, high_);
     }
@@ -160,8 +194,12 @@ private:
     [[nodiscard]] bool is_high() const { return sign_at(p_, high_) == 0; }
     void halve() {
         const DyadicTime<Int> middle{Int(low_.n + high_.n), low_.k + 1};
+        // The root is the only one, and simple. So the sign changes at it if the interval's ends
+        // are no roots.
+        const int at_low = sign_at(p_, low_);
+        const bool left = at_low != 0 ? sign_at(p_, middle) != at_low
+                                      : variations(chain_, low_) - variations(chain_, middle) == 1;
         low_ = {Int(2 * low_.n), low_.k + 1}, high_ = {Int(2 * high_.n), high_.k + 1};
-        const bool left = variations(chain_, low_) - variations(chain_, middle) == 1;
         (left ? high_ : low_) = middle;
     }
 
@@ -174,7 +212,7 @@ private:
 template <typename Int>
 std::vector<OracleRoot<Int>> oracle_roots(const Poly<Int>& p) {
     std::vector<OracleRoot<Int>> roots;
-    if (p.size() < 2)
+    if (p.size() < 2 || sign_throughout(p, {Int(0), 0}) != 0)
         return roots;
     Poly<Int> square_free = primitive(p);
     const auto repeated = sturm_chain(p, derived(p)).back();
@@ -235,20 +273,15 @@ public:
                         ? std::vector<std::array<std::size_t, 3>>{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}}
                         : std::vector<std::array<std::size_t, 3>>{
                               {0, 2, 3}, {1, 2, 3}, {2, 0, 1}, {3, 0, 1}};
-        for (const auto& [point, from, to] : segments_) {
-            const auto u = sub(x_[from], x_[point]), v = sub(x_[to], x_[point]);
-            const auto n = cross_of(u, v);
-            off_line_.push_back(dot_of(n, n));
-            between_.push_back(dot_of(u, v));
-        }
     }
+
+    /// Whether all four vertices lie in one plane at some time.
+    [[nodiscard]] bool comes_into_a_plane() const { return volume_.empty() || !flat_.empty(); }
 
     /// The first time of contact, to about 2^-50; none if the features do not meet.
     [[nodiscard]] std::optional<OracleTime> first() const {
-        std::vector<OracleRoot<Int>> times;
-        if (!volume_.empty())
-            times = oracle_roots(volume_);
-        else {
+        std::vector<OracleRoot<Int>> times = flat_;
+        if (volume_.empty()) {
             if (meet_at([](const Poly<Int>& g) { return sign_at(g, {Int(0), 0}); }))
                 return OracleTime{0, 0};
             for (const auto& p : relevant())
@@ -257,6 +290,7 @@ public:
         }
         std::optional<OracleTime> first;
         for (OracleRoot<Int>& time : times) {
+            time.refine(24); // a short interval, in which most signs are the same throughout
             if (!meet_at([&](const Poly<Int>& g) { return time.sign(g); }))
                 continue;
             time.refine(50);
@@ -286,9 +320,12 @@ private:
     void prepare(const PolyPoint<Int>& u0, const PolyPoint<Int>& u1, const PolyPoint<Int>& v0,
                  const PolyPoint<Int>& v1, const PolyPoint<Int>& r0, const PolyPoint<Int>& r1) {
         const auto u = sub(u1, u0), v = sub(v1, v0), r = sub(r1, r0);
+        volume_ = dot_of(r, cross_of(u, v));
+        flat_ = oracle_roots(volume_);
+        if (!comes_into_a_plane())
+            return;
         const auto uu = dot_of(u, u), uv = dot_of(u, v), vv = dot_of(v, v), ru = dot_of(r, u),
                    rv = dot_of(r, v);
-        volume_ = dot_of(r, cross_of(u, v));
         whole_ = test::minus(times(uu, vv), times(uv, uv));
         s_ = test::minus(times(ru, vv), times(rv, uv));
         h_ = test::minus(times(rv, uu), times(ru, uv));
@@ -309,25 +346,38 @@ private:
                     return false;
             return true;
         }
-        for (std::size_t i = 0; i < segments_.size(); ++i)
-            if (sign(off_line_[i]) == 0 && sign(between_[i]) <= 0)
-                return true;
-        return false;
+        return std::any_of(segments_.begin(), segments_.end(), [&](const auto& segment) {
+            const auto [off_line, between] = on_segment(segment);
+            return sign(off_line) == 0 && sign(between) <= 0;
+        });
+    }
+
+    /// Zero where the point lies on the segment's line; not positive where, on the line, it lies
+    /// between the ends.
+    [[nodiscard]] std::array<Poly<Int>, 2>
+    on_segment(const std::array<std::size_t, 3>& segment) const {
+        const auto& [point, from, to] = segment;
+        const auto u = sub(x_[from], x_[point]), v = sub(x_[to], x_[point]);
+        const auto n = cross_of(u, v);
+        return {dot_of(n, n), dot_of(u, v)};
     }
 
     [[nodiscard]] std::vector<Poly<Int>> relevant() const {
-        std::vector<Poly<Int>> all{whole_};
-        for (const auto* list : {&inside_, &off_line_, &between_})
-            all.insert(all.end(), list->begin(), list->end());
+        std::vector<Poly<Int>> all = inside_;
+        all.push_back(whole_);
+        for (const auto& segment : segments_)
+            for (const auto& p : on_segment(segment))
+                all.push_back(p);
         return all;
     }
 
     ElementaryKind kind_;
     std::array<PolyPoint<Int>, 4> x_;
     Poly<Int> volume_, whole_, s_, h_;
+    std::vector<OracleRoot<Int>>
+        flat_; ///< when all vertices lie in one plane, unless they always do
     std::vector<Poly<Int>> inside_;
     std::vector<std::array<std::size_t, 3>> segments_; ///< a point and the ends of a segment
-    std::vector<Poly<Int>> off_line_, between_;
 };
 
 } // namespace abut::test

@@ -6,6 +6,8 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
     set(page_dir ${CMAKE_CURRENT_LIST_DIR})
     set(page_cpp ${CMAKE_CURRENT_BINARY_DIR}/report_page.cpp)
     set(scene_js ${CMAKE_CURRENT_BINARY_DIR}/report_scene.js)
+    # The notices of what is joined, also for cmake/copyright.cmake. The script begins with them.
+    set(scene_notices ${PROJECT_BINARY_DIR}/copyright/report_scene.txt)
     file(GLOB page_sources CONFIGURE_DEPENDS ${page_dir}/*.js ${page_dir}/*.css ${page_dir}/*.html)
     file(GLOB scene_sources CONFIGURE_DEPENDS ${page_dir}/scene/*.js)
     find_program(ABUT_NODE node)
@@ -13,14 +15,16 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
     set(scene_modules ${page_dir}/scene/node_modules)
     if(ABUT_NODE AND EXISTS ${scene_modules}/three/package.json AND EXISTS ${scene_modules}/esbuild/package.json)
         add_custom_command(
-            OUTPUT ${scene_js}
-            COMMAND ${ABUT_NODE} ${page_dir}/scene/bundle.mjs ${scene_js}
+            OUTPUT ${scene_js} ${scene_notices}
+            COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/copyright
+            COMMAND ${ABUT_NODE} ${page_dir}/scene/bundle.mjs ${scene_js} ${scene_notices}
             DEPENDS ${scene_sources} ${page_dir}/scene/bundle.mjs ${page_dir}/scene/package-lock.json ${CMAKE_CURRENT_LIST_FILE}
             COMMENT "Bundling the 3D view of the report page"
             VERBATIM)
     else()
         message(STATUS "Without three.js: report.html has no 3D view. tools/install_dependencies build gets it.")
         file(WRITE ${scene_js} "")
+        file(WRITE ${scene_notices} "")
     endif()
     add_custom_command(
         OUTPUT ${page_cpp}
