@@ -95,9 +95,10 @@ bool is_signed(int flags) {
 }
 
 std::vector<Vec3> from_c(const abut_vec3* points, std::size_t count) {
+    const std::span<const abut_vec3> given = needed(points, count, "points");
     std::vector<Vec3> result;
     result.reserve(count);
-    for (const abut_vec3& point : needed(points, count, "points"))
+    for (const abut_vec3& point : given)
         result.push_back(from_c(point));
     return result;
 }

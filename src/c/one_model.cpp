@@ -21,9 +21,10 @@ abut_status abut_first_hit(const abut_model* model, const abut_transform* world_
                            const abut_ray* rays, size_t count, abut_ray_hit* hits) {
     return abut::guarded([&] {
         const auto results = abut::needed(hits, count, "hits");
+        const auto given = abut::needed(rays, count, "rays");
         std::vector<abut::Ray> asked;
         asked.reserve(count);
-        for (const abut_ray& ray : abut::needed(rays, count, "rays"))
+        for (const abut_ray& ray : given)
             asked.push_back(
                 {abut::from_c(ray.origin), abut::from_c(ray.direction), ray.t_min, ray.t_max});
         const std::vector<abut::RayHit> found =
