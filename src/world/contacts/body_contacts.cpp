@@ -6,6 +6,7 @@
 #include "math/transform.h"
 #include "math/vector.h"
 #include "world/contacts/solid_contacts.h"
+#include "world/narrow_phase/contact_rounding.h"
 #include "world/narrow_phase/offset_surface.h"
 
 #include <algorithm>

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <tuple>
+#include <type_traits>
+#include <variant>
 
 namespace abut {
 
@@ -25,6 +27,16 @@ auto order_of(const Solid& solid, const Transform& world_from_body) {
     return std::tie(solid.half, solid.radius, world_from_body.m, solid.centre.x, solid.centre.y,
                     solid.centre.z, x.x, x.y, x.z, z.x, z.y, z.z);
 }
+
+/// A deformable's model is only made when a query needs it.
+double contact_share(const DeformableShape& deformable) {
+    return contact_share(deformable.snapshot->model());
+}
+
+/// Surfaces and convex bodies.
+template <typename Shape>
+constexpr bool kIsExact = std::is_same_v<Shape, Model> || std::is_same_v<Shape, DeformableShape> ||
+                          std::is_same_v<Shape, ConvexShape>;
 
 } // namespace
 
@@ -48,12 +60,26 @@ double contact_share(const CurvedShape& curved) {
     return kContactRounding * curved.solid.reach;
 }
 
-double contact_share(const Box3& bounds) {
-    return kContactRounding * 4 * max_abs(bounds.upper - bounds.lower);
-}
-
 double contact_share(const PlaneShape& /*plane*/) {
     return 0; // its gaps are closed forms, rounded as the other body
+}
+
+double contact_share(const BodyShape& shape, const Box3& own_bounds) {
+    if (is_deformable(shape)) // at least the share of a model with these bounds
+        return kContactRounding * 4 * max_abs(own_bounds.upper - own_bounds.lower);
+    return std::visit([](const auto& kind) { return contact_share(kind); }, shape);
+}
+
+double contact_rounding(const PlacedBody& a, const PlacedBody& b) {
+    return std::visit(
+        [](const auto& shape_a, const auto& shape_b) -> double {
+            if constexpr (kIsExact<std::decay_t<decltype(shape_a)>> &&
+                          kIsExact<std::decay_t<decltype(shape_b)>>)
+                return 0;
+            else
+                return contact_share(shape_a) + contact_share(shape_b);
+        },
+        a.shape, b.shape);
 }
 
 bool comes_before(const RoundedBox& a, const Transform& world_from_a, const RoundedBox& b,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "world/narrow_phase/body.h"
+#include "world/narrow_phase/narrow_phase.h"
 
 // When bodies whose gap is rounded touch.
 namespace abut {
@@ -13,8 +13,13 @@ double contact_share(const ConvexShape& convex);
 double contact_share(const RoundedBox& box);
 double contact_share(const CurvedShape& curved);
 double contact_share(const PlaneShape& plane);
-/// At least the share of a surface with these bounds.
-double contact_share(const Box3& bounds);
+/// At least the share of any body. A world's boxes are larger by it, so that bodies that touch are a
+/// pair.
+double contact_share(const BodyShape& shape, const Box3& own_bounds);
+
+/// The rounding of the gap of two bodies: the sum of their shares. 0 for surfaces and convex bodies
+/// among themselves: that they touch is exact, and how their gap is computed agrees with that.
+double contact_rounding(const PlacedBody& a, const PlacedBody& b);
 
 /// Whether one solid comes before another in an order that does not depend on how they were added to
 /// a world. So the gap of two solids of one kind is computed the same whichever of them is a.

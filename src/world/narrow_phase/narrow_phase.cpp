@@ -157,10 +157,17 @@ bool meet(const PlacedConvex& a, const PlacedConvex& b, PairWarmStart& warm_star
 bool meet(const PlacedConvex& a, const PlacedRounded& b, PairWarmStart& warm_start) {
     const RoundedBox solid = placed(b.shape, b.world);
     const Core core = core_of(solid);
+    const double touching = rounding_of(a, b);
     ConvexDistanceOptions options;
     options.warm_start = &warm_start.solids;
-    return distance(a.shape.solid, a.world, core.convex, core.world, options).distance <=
-           solid.radius + rounding_of(a, b);
+    const auto gap = [&] {
+        return distance(a.shape.solid, a.world, core.convex, core.world, options).distance -
+               solid.radius;
+    };
+    if (const double first = gap(); std::abs(first - touching) > 0.5 * touching)
+        return first < touching;
+    options.warm_start = nullptr; // where rounding decides, earlier queries must not
+    return gap() <= touching;
 }
 
 bool meet(const PlacedSurface& a, const PlacedRounded& b, PairWarmStart& /*warm_start*/) {
@@ -285,15 +292,21 @@ BodyGap measure(const PlacedRounded& a, const PlacedRounded& b, double upper_bou
 }
 
 /// A curved shape with a surface, and with a solid of any kind but a half-space.
-bool meet(const PlacedSurface& a, const PlacedCurved& b, PairWarmStart& warm_start) {
-    return surface_meets(a.shape, a.world, support_of(b), rounding_of(a, b), warm_start.direction);
+bool meet(const PlacedSurface& a, const PlacedCurved& b, PairWarmStart& /*warm_start*/) {
+    return surface_meets(a.shape, a.world, support_of(b), rounding_of(a, b));
 }
 template <typename Solid>
 bool meet(const Placed<Solid>& a, const PlacedCurved& b, PairWarmStart& warm_start) {
+    const SupportShape solid = support_of(a), curved = support_of(b);
     const double touching = rounding_of(a, b);
-    return support_gap(support_of(a), support_of(b), touching, SupportDepths::no,
-                       warm_start.direction)
-               .distance <= touching;
+    Vec3& last = warm_start.direction;
+    if (last != Vec3{} && separation_along(solid, curved, last) > 2 * touching)
+        return false;
+    Vec3 direction; // where rounding decides, earlier queries must not
+    const SupportGap gap = support_gap(solid, curved, touching, SupportDepths::no, direction);
+    if (direction != Vec3{})
+        last = direction;
+    return gap.distance <= touching;
 }
 BodyGap measure(const PlacedSurface& a, const PlacedCurved& b, double upper_bound, Depths depths,
                 PairWarmStart& warm_start) {
@@ -394,25 +407,6 @@ auto with_shapes(const PlacedBody& a, const PlacedBody& b, const Query& query, c
 }
 
 } // namespace
-
-double contact_share(const BodyShape& shape, const Box3& own_bounds) {
-    if (is_deformable(shape)) // whose model is only made when a query needs it
-        return contact_share(own_bounds);
-    return std::visit([](const auto& kind) { return contact_share(surface_of(kind)); }, shape);
-}
-
-double contact_rounding(const PlacedBody& a, const PlacedBody& b) {
-    return std::visit(
-        [](const auto& shape_a, const auto& shape_b) -> double {
-            using KindA = std::decay_t<decltype(surface_of(shape_a))>;
-            using KindB = std::decay_t<decltype(surface_of(shape_b))>;
-            if constexpr (kRank<KindA> < 2 && kRank<KindB> < 2)
-                return 0;
-            else
-                return contact_share(surface_of(shape_a)) + contact_share(surface_of(shape_b));
-        },
-        a.shape, b.shape);
-}
 
 bool touch(const PlacedBody& a, const PlacedBody& b, PairWarmStart& warm_start) {
     return with_shapes(

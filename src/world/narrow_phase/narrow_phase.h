@@ -53,14 +53,6 @@ enum class Depths : std::uint8_t {
 BodyGap gap_between(const PlacedBody& a, const PlacedBody& b, double upper_bound, Depths depths,
                     PairWarmStart& warm_start);
 
-/// At least a body's share of the rounding of a gap (contact_rounding.h). A world's boxes are larger
-/// by it, so that bodies that touch are a pair.
-double contact_share(const BodyShape& shape, const Box3& own_bounds);
-/// A bound of the rounding of the gap of two bodies: `touch` decides about those whose gap is not
-/// larger. 0 for surfaces and convex bodies among themselves: that they touch is exact, and how their
-/// gap is computed agrees with that.
-double contact_rounding(const PlacedBody& a, const PlacedBody& b);
-
 /// Whether the kind of shape is convex. Models count as not convex.
 inline bool is_convex(const BodyShape& shape) {
     return !std::holds_alternative<Model>(shape) && !is_deformable(shape);

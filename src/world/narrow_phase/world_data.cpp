@@ -2,6 +2,8 @@
 
 #include <abut/error.h>
 
+#include "world/narrow_phase/contact_rounding.h"
+
 #include <algorithm>
 #include <bit>
 #include <string>
