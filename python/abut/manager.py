@@ -1,5 +1,7 @@
 """A collision manager with the method names of trimesh.collision.CollisionManager."""
 
+import functools
+
 import numpy as np
 
 from . import _abut
@@ -33,7 +35,7 @@ class DistanceData:
     """The distance of two objects and a pair of closest points.
 
     names: the two names. distance: length; negative if they overlap: minus the depth. point(name): the closest
-    point on that object, or if they overlap its deepest one, shape (3,). index(name): the triangle that it lies on.
+    point on that object, or if they overlap its deepest one. index(name): the triangle that it lies on.
     """
 
     def __init__(self, names, distance, points, triangles):
@@ -55,28 +57,26 @@ class DistanceData:
 
 
 class _Shape:
-    """A mesh: its model and, if it is convex, the solid that it bounds."""
+    """A mesh, and what is known of it. What takes time is found out when it is first needed."""
 
     def __init__(self, mesh):
         self.model = mesh if isinstance(mesh, _abut.Model) else _abut.Model(mesh)
-        try:
-            solid = _abut.Convex(self.model.vertices, self.model.faces)
-            self.convex = solid if solid.dimension == 3 else None
-        except _abut.Error:
-            self.convex = None
-        self._closed = None
 
-    @property
-    def body(self):
-        """What stands for the mesh in a World."""
-        return self.convex or self.model
+    @functools.cached_property
+    def report(self):
+        """The MeshReport."""
+        return _abut.inspect(self.model.mesh)
 
-    @property
-    def closed(self):
-        """Whether the mesh has an inside, which another one can overlap with."""
-        if self._closed is None:
-            self._closed = self.convex is not None or bool(_abut.inspect(self.model.mesh).closed)
-        return self._closed
+    @functools.cached_property
+    def convex(self):
+        """Whether the mesh is convex, and thus a solid: a closed surface that turns inward at no edge."""
+        return bool(self.report.closed) and self.report.components == 1 and \
+            _turns_inward_nowhere(self.model.vertices, self.model.faces)
+
+    @functools.cached_property
+    def hull(self):
+        """The solid of a convex mesh."""
+        return _abut.Convex(self.model.vertices)
 
 
 class _Object:
@@ -86,7 +86,7 @@ class _Object:
         self.shape = shape
         self.pose = _matrix(transform)
         world = _abut.World()  # checks that the pose is rigid
-        box = world.box(world.add(shape.body, self.pose))
+        box = world.box(world.add(shape.model, self.pose))
         self.lower, self.upper = box.lower, box.upper
 
 
@@ -113,7 +113,7 @@ class CollisionManager:
         mesh: anything that abut.Model takes. transform: the mesh's pose, shape (4, 4). Returns the abut.Model.
         """
         added = _Object(_Shape(mesh), transform)
-        body = self._world.add(added.shape.body, added.pose)
+        body = self._world.add(added.shape.model, added.pose)
         if name in self._bodies:
             self.remove_object(name)
         self._objects[name] = added
@@ -143,7 +143,11 @@ class CollisionManager:
 
     def in_collision_internal(self, return_names=False, return_data=False):
         """Whether any two objects meet; with the set of pairs of names and a list of ContactData if asked for."""
-        pairs = [(self._names[int(a)], self._names[int(b)]) for a, b in self._world.collide()]
+        bodies = {(int(a), int(b)) for a, b in self._world.collide()}
+        for pair in map(tuple, self._world.pairs().tolist()):  # whose boxes overlap
+            if pair not in bodies and _one_inside(*(self._objects[self._names[body]] for body in pair)):
+                bodies.add(pair)
+        pairs = [(self._names[a], self._names[b]) for a, b in sorted(bodies)]
         names = {tuple(sorted(pair, key=str)) for pair in pairs}
         data = []
         for a, b in pairs if return_data else []:
@@ -245,24 +249,59 @@ def _nearest(first, second, name=None):
     return best, names, data
 
 
+def _turns_inward_nowhere(vertices, faces):
+    """Whether no vertex of a neighbouring triangle lies before a triangle of a closed mesh, to rounding."""
+    points, merged = np.unique(vertices, axis=0, return_inverse=True)
+    faces = merged.reshape(-1)[faces]
+    faces = faces[(faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])]
+    corners = points[faces] - points.mean(axis=0)
+    crosses = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals = crosses / np.maximum(np.linalg.norm(crosses, axis=1, keepdims=True), np.finfo(float).tiny)
+    # The edge from a to b of one triangle is that from b to a of its neighbour.
+    edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).astype(np.int64)
+    opposite = np.concatenate([faces[:, 2], faces[:, 0], faces[:, 1]])
+    keys, back = edges[:, 0] * len(points) + edges[:, 1], edges[:, 1] * len(points) + edges[:, 0]
+    order = np.argsort(keys)
+    at = np.minimum(np.searchsorted(keys[order], back), len(keys) - 1)
+    neighbour = order[at]
+    if len(np.unique(keys)) != len(keys) or np.any(keys[neighbour] != back):
+        return False  # partly inside out
+    sphere_like = len(np.unique(faces)) - len(edges) // 2 + len(faces) == 2
+    heights = np.einsum("ij,ij->i", np.tile(normals, (3, 1)),
+                        points[opposite[neighbour]] - points[edges[:, 0]])
+    outward = np.sign(np.einsum("ij,ij->", corners[:, 0], crosses))  # of six times the volume
+    return bool(sphere_like and np.max(outward * heights) <= 1e-6 * np.linalg.norm(np.ptp(points, axis=0)))
+
+
 def _meet(a, b):
     """Whether two objects share a point: convex ones as solids, others by their surfaces."""
-    if a.shape.convex is None and b.shape.convex is None:
-        return bool(_abut.collide(a.shape.model, a.pose, b.shape.model, b.pose))
-    world = _abut.World()
-    world.add(a.shape.body, a.pose)
-    world.add(b.shape.body, b.pose)
-    return len(world.collide()) > 0
+    return bool(_abut.collide(a.shape.model, a.pose, b.shape.model, b.pose)) or _one_inside(a, b)
+
+
+def _one_inside(a, b):
+    """Whether a part of one object lies in the other, a convex one. The surfaces do not meet."""
+    return _part_inside(a, b) or _part_inside(b, a)
+
+
+def _part_inside(inner, outer):
+    if np.any(inner.lower > outer.upper) or np.any(inner.upper < outer.lower) or not outer.shape.convex:
+        return False
+    # A part that does not meet the surface lies inside as a whole, or outside.
+    faces = inner.shape.model.faces
+    of_parts = faces[:1, 0] if inner.shape.report.components == 1 else faces[:, 0]
+    vertices = inner.shape.model.vertices[of_parts]
+    points = vertices @ inner.pose[:3, :3].T + inner.pose[:3, 3]
+    return bool(np.any(_abut.contains(outer.shape.model, outer.pose, points).side != _abut.Side.outside))
 
 
 def _overlap(a, b):
     """Minus the depth of two objects that meet, the two deepest points, and a triangle at each."""
-    if a.shape.convex is not None and b.shape.convex is not None:
-        found = _abut.penetration(a.shape.convex, a.pose, b.shape.convex, b.pose)
+    if a.shape.convex and b.shape.convex:
+        found = _abut.penetration(a.shape.hull, a.pose, b.shape.hull, b.pose)
         depth = found.depth
     else:
         found = _abut.penetration(a.shape.model, a.pose, b.shape.model, b.pose, separation=False)
-        depth = found.depth if a.shape.closed or b.shape.closed else 0
+        depth = found.depth if a.shape.report.closed or b.shape.report.closed else 0
     points = found.point_a, found.point_b
     return 0.0 - depth, points, [_triangle_at(o, p) for o, p in zip((a, b), points)]
 
@@ -274,8 +313,8 @@ def _triangle_at(placed, point):
 
 def _contacts(names, a, b):
     """A ContactData for each place where two objects meet. Two convex ones meet at one place."""
-    if a.shape.convex is not None and b.shape.convex is not None:
-        depth = _abut.penetration(a.shape.convex, a.pose, b.shape.convex, b.pose)
+    if a.shape.convex and b.shape.convex:
+        depth = _abut.penetration(a.shape.hull, a.pose, b.shape.hull, b.pose)
         places = [(depth.point_a, depth.point_b, depth.direction, depth.depth, None)]
     else:
         depth = _abut.penetration(a.shape.model, a.pose, b.shape.model, b.pose, separation=False)

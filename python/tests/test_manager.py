@@ -204,6 +204,12 @@ def test_meshes_that_are_not_convex():
     meet, names, contacts = manager.in_collision_single(beam, return_names=True, return_data=True)
     assert meet and names == {"beam"} and len(contacts) > 0
     assert manager.min_distance_single(beam) < -0.9
+    # Also one of several parts. A mesh of two parts is no convex solid.
+    (v, f), (w, g) = box((0.1, 0.1, 0.1)), box((0.1, 0.1, 0.1))
+    two = abut.Mesh(np.concatenate([v + 9, w + 0.2]), np.concatenate([f, g + len(v)]))
+    assert manager.in_collision_single(two) and manager.min_distance_single(two) < 0
+    manager.add_object("beam", abut.Mesh(np.concatenate([v + 9, w + 20]), np.concatenate([f, g + len(v)])))
+    assert not manager.in_collision_single(two, matrix((3, 0, 0)))
     # Surfaces without an inside have no depth.
     sheet = abut.Mesh(np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0.0)]), [(0, 1, 2)])
     upright = abut.Mesh(np.array([(0.2, 0.2, -1), (0.2, 0.2, 1), (2, 2, 0.0)]), [(0, 1, 2)])
