@@ -30,7 +30,7 @@ std::vector<Box3> crossing_bars(std::size_t along_x, std::size_t along_y) {
     return boxes;
 }
 
-void shift(std::vector<Box3>& boxes, std::size_t from, const Vec3& by) {
+void move_from(std::vector<Box3>& boxes, std::size_t from, const Vec3& by) {
     for (std::size_t i = from; i < boxes.size(); ++i) {
         Box3& box = boxes[i];
         box.lower = {box.lower.x + by.x, box.lower.y + by.y, box.lower.z + by.z};
@@ -56,7 +56,7 @@ TEST_P(BlocksOfPairs, PairsThatStayNeitherBeginNorEnd) {
             phase.update(boxes);
             EXPECT_EQ(phase.begun().size(), all);
             for (int step = 0; step < 4; ++step) { // the upper bars slide, and all pairs stay
-                shift(boxes, along_x, {0.1, 0.05, 0});
+                move_from(boxes, along_x, {0.1, 0.05, 0});
                 phase.update(boxes);
                 EXPECT_EQ(phase.pairs().size(), all);
                 EXPECT_EQ(phase.begun().size(), 0U);
@@ -66,7 +66,7 @@ TEST_P(BlocksOfPairs, PairsThatStayNeitherBeginNorEnd) {
             phase.update(boxes);
             EXPECT_EQ(phase.pairs().size(), all - along_x);
             EXPECT_EQ(phase.ended().size(), along_x);
-            shift(boxes, along_x, {0, 0, 9});
+            move_from(boxes, along_x, {0, 0, 9});
             phase.update(boxes);
             EXPECT_EQ(phase.ended().size(), all - along_x);
             EXPECT_EQ(phase.pairs().size(), 0U);
@@ -109,7 +109,7 @@ TEST(BlockSizes, ChainsOfAnyNumberOfBoxes) {
                 EXPECT_TRUE(phase.pairs() == chain);
                 EXPECT_EQ(phase.begun().size(), step == 0 ? chain.size() : 0);
                 EXPECT_TRUE(phase.ended().empty());
-                shift(moved, 0, {0, 0.25, 0});
+                move_from(moved, 0, {0, 0.25, 0});
             }
         }
     }

@@ -26,7 +26,7 @@ struct TouchingBody {
     std::function<BodyId(World&, const Pose&)> add;
 };
 
-Mesh box_mesh(const Box3& box) {
+Mesh mesh_of_box(const Box3& box) {
     Mesh mesh;
     for (unsigned i = 0; i < 8; ++i)
         mesh.positions.push_back({(i & 1U) != 0 ? box.upper.x : box.lower.x,
@@ -94,11 +94,11 @@ std::vector<TouchingBody> bodies_of_size(double s) {
              return w.add(Convex(octahedron_at_corner(s).positions), p);
          }},
         {"convex face",
-         [face](World& w, const Pose& p) { return w.add(Convex(box_mesh(face).positions), p); }},
+         [face](World& w, const Pose& p) { return w.add(Convex(mesh_of_box(face).positions), p); }},
         {"model's corner",
          [s](World& w, const Pose& p) { return w.add(Model(octahedron_at_corner(s)), p); }},
         {"model's face",
-         [face](World& w, const Pose& p) { return w.add(Model(box_mesh(face)), p); }}};
+         [face](World& w, const Pose& p) { return w.add(Model(mesh_of_box(face)), p); }}};
 }
 
 /// Whether a query finds the two bodies of a world in contact.
@@ -134,7 +134,8 @@ struct TwoBodies {
     [[nodiscard]] BodyId id_of_b(bool swapped) const { return {swapped ? 0U : 1U, 0}; }
 };
 
-std::array<double, 4> product(const std::array<double, 4>& q, const std::array<double, 4>& p) {
+std::array<double, 4> quaternion_product(const std::array<double, 4>& q,
+                                         const std::array<double, 4>& p) {
     return {q[0] * p[0] - q[1] * p[1] - q[2] * p[2] - q[3] * p[3],
             q[0] * p[1] + q[1] * p[0] + q[2] * p[3] - q[3] * p[2],
             q[0] * p[2] - q[1] * p[3] + q[2] * p[0] + q[3] * p[1],
@@ -163,8 +164,8 @@ TwoBodies touching_bodies(Random& random, Placement placement) {
     two.at_a.translation = two.at_b.translation = place;
     if (placement == Placement::turned || placement == Placement::far_away) {
         const std::array<double, 4> turn = random.pose(1).rotation;
-        two.at_a.rotation = product(turn, two.at_a.rotation);
-        two.at_b.rotation = product(turn, two.at_b.rotation);
+        two.at_a.rotation = quaternion_product(turn, two.at_a.rotation);
+        two.at_b.rotation = quaternion_product(turn, two.at_b.rotation);
     }
     if (placement == Placement::with_a_gap)
         two.at_b.translation.x +=

@@ -176,7 +176,7 @@ TEST(WorldSteps, BodiesThatComeAndGoTakeNoMoreRoomWhateverIsAsked) {
 }
 
 /// Asks in several ways, and returns the answers in numbers.
-std::vector<double> answers_of(World& world) {
+std::vector<double> all_answers_of(World& world) {
     std::vector<double> numbers;
     for (const BodyPair& pair : world.collide())
         numbers.push_back(pair.a.index), numbers.push_back(pair.b.index);
@@ -217,7 +217,7 @@ TEST(WorldSteps, ABodyInAFormerPlaceIsAskedAboutAnew) {
         const Pose at = random.pose(0.5);
         add(world, kind, pose), add(fresh, kind, pose);
         const BodyId gone = add(world, random.integer(0, 3), random.pose(0.3));
-        answers_of(world);
+        all_answers_of(world);
         world.remove(gone);
         // The place becomes free without a query that asks about the pair, or with one.
         for (int i = 0; i < 2; ++i) {
@@ -228,7 +228,7 @@ TEST(WorldSteps, ABodyInAFormerPlaceIsAskedAboutAnew) {
         const BodyId next = add(world, other, at);
         add(fresh, other, at);
         replaced += next.index == gone.index ? 1 : 0;
-        EXPECT_EQ(answers_of(world), answers_of(fresh));
+        EXPECT_EQ(all_answers_of(world), all_answers_of(fresh));
     }
     EXPECT_EQ(replaced, std::size_t(many(60)));
 }
