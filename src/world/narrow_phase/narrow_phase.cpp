@@ -416,15 +416,14 @@ bool touch(const PlacedBody& a, const PlacedBody& b, PairWarmStart& warm_start) 
 
 BodyGap gap_between(const PlacedBody& a, const PlacedBody& b, double upper_bound, Depths depths,
                     PairWarmStart& warm_start) {
+    // Whether bodies touch, `touch` decides alone. Twice the rounding: what it decides is rounded
+    // too. A gap up to there must be known, not only that it exceeds a lower bound.
+    const double rounding = contact_rounding(a, b);
+    const double bound = std::max(upper_bound, 2 * rounding);
     BodyGap gap = with_shapes(
         a, b,
-        [&](const auto& x, const auto& y) {
-            return measure(x, y, upper_bound, depths, warm_start);
-        },
+        [&](const auto& x, const auto& y) { return measure(x, y, bound, depths, warm_start); },
         [](const BodyGap& gap_of_b) { return turned_round(gap_of_b); });
-    // Whether bodies touch, `touch` decides alone. Twice the rounding: what it decides is rounded
-    // too.
-    const double rounding = contact_rounding(a, b);
     if (rounding == 0 || !(std::abs(gap.distance) <= 2 * rounding))
         return gap;
     if (touch(a, b, warm_start))

@@ -179,7 +179,7 @@ TEST_P(TouchingBodies, AreTheSameForEveryQueryAndOrder) {
     Random random(5401);
     std::size_t met = 0, apart = 0;
     std::map<std::string, int> faults;
-    const int rounds = many(1500);
+    const int rounds = many(600);
     for (int round = 0; round < rounds; ++round) {
         const TwoBodies two = touching_bodies(random, GetParam());
         const std::string names = std::string(two.a.name) + ", " + two.b.name + ": ";
