@@ -167,7 +167,9 @@ public:
     /// Finds all pairs of bodies that share a point.
     ///
     /// Accuracy    exact for two models, two convex bodies, and a model with a box or a convex
-    ///             body; to rounding for all others.
+    ///             body; to rounding for all others: a gap of at most 2^-46 of the sizes of both
+    ///             bodies counts as contact. `penetration`, `contact_manifolds` and `within(0)` list
+    ///             the same pairs, whatever was asked before.
     std::vector<BodyPair> collide(const Progress& progress = {});
     /// As `collide`, with penetration depths and witness points.
     ///
