@@ -20,6 +20,11 @@
  * are read in metres. Each function has the accuracy and cost of the C++ function that its comment
  * names.
  *
+ * Every argument is checked: a pointer that is NULL where a comment does not allow it, a number
+ * that is not finite or outside its domain, an unknown flag, an array that no memory can hold, and a
+ * name that is taken give ABUT_BAD_ARGUMENT. (A mesh whose coordinates are not finite or whose
+ * indices are out of range gives ABUT_BAD_MESH.)
+ *
  * Structures and functions of one ABUT_C_VERSION keep their form. A later one may add functions.
  */
 #define ABUT_C_VERSION 1
@@ -125,7 +130,8 @@ enum {
     ABUT_SIGNED = 1 /**< negative distances inside of solids */
 };
 
-/** Computes the distance of two models: abut::distance. `flags` is 0 or ABUT_SIGNED. */
+/** Computes the distance of two models: abut::distance. `flags` is 0 or ABUT_SIGNED, here and
+ * below. */
 abut_status abut_distance(const abut_model* a, const abut_transform* world_from_a,
                           const abut_model* b, const abut_transform* world_from_b, int flags,
                           abut_gap* gap);
@@ -226,16 +232,16 @@ abut_status abut_scene_new(const char* name, abut_scene** scene);
 /** Adds a mesh, and sets *mesh to its number. */
 abut_status abut_scene_add_mesh(abut_scene* scene, const double* vertices, size_t vertex_count,
                                 const uint32_t* triangles, size_t triangle_count, uint32_t* mesh);
-/** Adds a part: a mesh in its place. The name is also its id, so no two parts of a scene have the
- * same. `type` may be NULL. */
+/** Adds a part: a mesh in its place. The name is also its id: ABUT_BAD_ARGUMENT if another part of
+ * the scene has it. `type` may be NULL. */
 abut_status abut_scene_add_part(abut_scene* scene, const char* name, const char* type,
                                 uint32_t mesh, const abut_transform* world_from_part);
 size_t abut_scene_part_count(const abut_scene* scene);
 void abut_scene_free(abut_scene* scene);
 
 typedef struct abut_clash_options {
-    double clearance, touch_tolerance; /**< metres */
-    int self;                          /**< also within each of several models */
+    double clearance, touch_tolerance; /**< metres, not negative */
+    int self;                          /**< not 0: also within each of several models */
     const char* rules;                 /**< path of a file of rules; NULL: none */
     abut_progress progress;            /**< NULL: none */
     void* user;                        /**< handed to `progress` */
@@ -245,7 +251,7 @@ typedef struct abut_clash_options {
 typedef struct abut_report abut_report;
 
 /** Finds all clashes between parts of different scenes; of one scene, between its parts:
- * abut::find_clashes. `options` may be NULL. */
+ * abut::find_clashes. `options` may be NULL. ABUT_BAD_ARGUMENT if two scenes have the same name. */
 abut_status abut_find_clashes(const abut_scene* const* scenes, size_t count,
                               const abut_clash_options* options, abut_report** report);
 /** The same of a store, in `memory` bytes; 0: 512 MiB. */

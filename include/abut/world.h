@@ -92,8 +92,8 @@ class WorldData;
 /// world. A deformable belongs to the caller, who keeps it until the body is removed.
 ///
 /// Queries with a progress report the fraction of finished pairs, and end with Error{interrupted}
-/// if its stop flag is set; the world is then unchanged. Changes of a world, `update` included,
-/// cannot be stopped.
+/// if its stop flag is set; the world is then as `update` leaves it. Changes of a world, `update`
+/// included, cannot be stopped.
 ///
 /// Only one thread at a time may use a world; its own work is parallel (`set_threads`). Results are
 /// sorted and do not depend on the number of threads.
@@ -147,16 +147,29 @@ public:
     [[nodiscard]] Box3 box(BodyId body) const;
 
     /// Finds the pairs of bodies whose boxes overlap, and those that began and ended since the last
-    /// update. Every query below first updates the world if a body has changed.
+    /// update.
+    ///
+    /// Every query below, from `collide` to `time_to_collision`, first updates the world, but only
+    /// if a body has been added, moved, refreshed or removed since the last update, or options or
+    /// the filter have changed. So several queries of bodies that stay in place belong to one
+    /// update, and leave the three lists as they are. Moving a body to where it is counts as a move.
+    /// A call of this function always is an update: without a change, no pair begins or ends.
     void update();
+    /// Pairs whose boxes overlapped at the last update, sorted. What has changed since then shows
+    /// after the next update or query.
     [[nodiscard]] std::vector<BodyPair> pairs() const;
+    /// Those of `pairs` that were none at the update before the last one.
     [[nodiscard]] std::vector<BodyPair> begun() const;
-    [[nodiscard]] std::vector<BodyPair> ended() const; ///< includes pairs of removed bodies
+    /// Pairs at the update before the last one that were none at the last one, sorted. Includes
+    /// pairs of removed bodies.
+    [[nodiscard]] std::vector<BodyPair> ended() const;
 
     /// Finds all pairs of bodies that share a point.
     ///
     /// Accuracy    exact for two models, two convex bodies, and a model with a box or a convex
-    ///             body; to rounding for all others.
+    ///             body; to rounding for all others: a gap of at most 2^-46 of the sizes of both
+    ///             bodies counts as contact. `penetration`, `contact_manifolds` and `within(0)` list
+    ///             the same pairs, whatever was asked before.
     std::vector<BodyPair> collide(const Progress& progress = {});
     /// As `collide`, with penetration depths and witness points.
     ///
@@ -225,9 +238,9 @@ public:
     /// Errors      Error{bad_argument} if the time is negative or not finite. Error{interrupted} if
     ///             the stop flag is set: the time has passed, and `advance(0)` then returns the
     ///             answer.
-    /// Cost        constant for each body; for each pair that is due, the first of four bounds that
-    ///             proves it apart: balls, boxes, a plane, a coarse distance. From time to time, a
-    ///             broad phase over boxes that enclose the bodies' possible places.
+    /// Cost        that of `update`; constant for each body; for each pair that is due, the first of
+    ///             four bounds that proves it apart: balls, boxes, a plane, a coarse distance. From
+    ///             time to time, a broad phase over boxes that enclose the bodies' possible places.
     /// Source      a heap of pairs by a lower bound of their time to collision,
     ///             t = (sqrt(v^2 + 2 a d) - v) / a
     ///             [Lin 1993; Cohen, Lin, Manocha, Ponamgi 1995]. Differs: the speed v is that along
@@ -241,7 +254,7 @@ public:
     /// Accuracy    never later than the next contact; near it if the motions are prescribed.
     /// Cost        an exact distance for each pair that could be the next; a time of impact if their
     ///             motions are prescribed.
-    [[nodiscard]] double next_event() const;
+    [[nodiscard]] double next_event();
     /// As `next_event`, however far ahead, but at most `limit`. Infinite if the bounds prove that no
     /// bodies ever meet. Where they prove it for a very long time only, it is that time.
     ///
@@ -249,14 +262,14 @@ public:
     ///             stop flag is set.
     /// Cost        as `next_event`, and a few broad phases over boxes of growing size.
     [[nodiscard]] double time_to_collision(double limit = std::numeric_limits<double>::infinity(),
-                                           const Progress& progress = {}) const;
+                                           const Progress& progress = {});
     /// Returns a time from the last `advance`. Before it has passed, the two bodies cannot begin to
     /// touch, as long as they keep to their bounds: 0 if they touch, infinite if they can never
     /// meet or options and filter keep them apart.
     ///
     /// Errors      Error{bad_argument} if an id is not valid or the two are the same.
     /// Cost        an exact distance, unless cheaper bounds prove that they never meet.
-    [[nodiscard]] double time_to_collision(BodyId a, BodyId b) const;
+    [[nodiscard]] double time_to_collision(BodyId a, BodyId b);
     [[nodiscard]] const ScheduleCounters& schedule_counters() const noexcept;
 
 private:

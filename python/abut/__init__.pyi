@@ -4397,13 +4397,13 @@ class World:
     def box(self, body: int) -> Box3:
         """A Box3 that encloses the body."""
     def update(self) -> None:
-        """Finds the pairs of bodies whose boxes overlap. Every query does so first."""
+        """Finds the pairs of bodies whose boxes overlap. Every query does so first if a body has changed."""
     def pairs(self) -> NDArray[Any]:
         """Pairs of bodies whose boxes overlapped at the last update: int64 array of shape (n, 2)."""
     def begun(self) -> NDArray[Any]:
-        """Pairs that began with the last update."""
+        """Pairs that began with the last update, or with the query that made it."""
     def ended(self) -> NDArray[Any]:
-        """Pairs that ended with the last update."""
+        """Pairs that ended with the last update, or with the query that made it."""
     def collide(self, *, progress: _Progress = ...) -> NDArray[Any]:
         """All pairs of bodies that share a point: int64 array of shape (n, 2). Exact for models, boxes and convex
         bodies; others to rounding.

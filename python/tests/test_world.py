@@ -165,3 +165,28 @@ def test_contact_manifolds():
     assert len(world.contact_manifolds()) == 1
     with pytest.raises(abut.Error):
         world.contact_manifolds(-1)
+
+
+def test_every_query_updates_the_pairs_first():
+    queries = {"collide": lambda w, b: w.collide(), "penetration": lambda w, b: w.penetration(),
+               "within": lambda w, b: w.within(0.1), "contacts": lambda w, b: w.contact_manifolds(0.1),
+               "time_of_impact": lambda w, b: w.time_of_impact({b: abut.Motion(np.eye(4), velocity=(1, 0, 0))}),
+               "advance": lambda w, b: w.advance(0.01), "next_event": lambda w, b: w.next_event(),
+               "time_to_collision": lambda w, b: w.time_to_collision(limit=1.0)}
+    for name, ask in queries.items():
+        world = abut.World()
+        stays = world.add(abut.Sphere((0, 0, 0), 0.5), np.eye(4))
+        largest = 0
+        for _ in range(50):
+            body = world.add(abut.Sphere((0, 0, 0), 0.5), np.eye(4))
+            largest = max(largest, int(body) & 0xFFFFFFFF)
+            ask(world, body)
+            assert world.pairs().tolist() == world.begun().tolist() == [[int(stays), int(body)]], name
+            ask(world, body)  # the same update
+            assert len(world.begun()) == 1 and len(world.ended()) == 0, name
+            world.remove(body)
+            assert len(world.pairs()) == 1, name  # as of the last update
+            ask(world, stays)
+            assert len(world.pairs()) == 0 and world.ended().tolist() == [[int(stays), int(body)]], name
+        assert largest <= 4, name  # places of removed bodies are used again
+        assert len(world) == 1

@@ -5,8 +5,12 @@
 #include "c/guard.h"
 
 #include <atomic>
+#include <span>
+#include <string>
 #include <string_view>
+#include <unordered_set>
 #include <utility>
+#include <vector>
 
 /// The result of a search, with the models that its writers need.
 struct abut_report { // NOLINT(readability-identifier-naming)
@@ -47,6 +51,20 @@ private:
     std::atomic<bool> stop_{false};
     Progress progress_;
 };
+
+/// Copies scenes. Throws Error{bad_argument} if two have the same name: in a report, nothing would
+/// tell their parts apart, and a scene that is given twice would be its own duplicate.
+std::vector<Scene> scenes_from_c(std::span<const abut_scene* const> scenes) {
+    std::vector<Scene> result;
+    std::unordered_set<std::string> names;
+    for (const abut_scene* scene : scenes) {
+        const Scene& model = needed(scene, "a scene").scene;
+        if (!names.insert(model.file).second)
+            throw Error(ErrorCode::bad_argument, model.file, "is given twice");
+        result.push_back(model);
+    }
+    return result;
+}
 
 ClashOptions options_from_c(const abut_clash_options* options, const Progress& progress) {
     ClashOptions result;
@@ -103,8 +121,8 @@ abut_status abut_scene_add_mesh(abut_scene* scene, const double* vertices, size_
         std::vector<abut::Mesh>& meshes = abut::needed(scene, "scene").scene.meshes;
         std::uint32_t& number = abut::needed(mesh, "mesh");
         meshes.push_back(
-            abut::mesh_from_c(abut::needed_triples(vertices, vertex_count, "vertices"),
-                              abut::needed_triples(triangles, triangle_count, "triangles")));
+            abut::mesh_from_c(abut::needed(vertices, vertex_count, "vertices", 3),
+                              abut::needed(triangles, triangle_count, "triangles", 3)));
         number = static_cast<std::uint32_t>(meshes.size() - 1);
     });
 }
@@ -121,7 +139,10 @@ abut_status abut_scene_add_part(abut_scene* scene, const char* name, const char*
         if (type != nullptr)
             part.type = type;
         part.mesh = mesh;
-        part.world_from_mesh = abut::from_c(world_from_part);
+        part.world_from_mesh = abut::from_c(world_from_part, "world_from_part");
+        if (!scene->ids.insert(part.id).second)
+            throw abut::Error(abut::ErrorCode::bad_argument,
+                              "there is already a part '" + part.id + "' in the scene");
         parts.parts.push_back(std::move(part));
     });
 }
@@ -138,9 +159,8 @@ abut_status abut_find_clashes(const abut_scene* const* scenes, size_t count,
                               const abut_clash_options* options, abut_report** report) {
     return abut::guarded([&] {
         abut_report*& result = abut::needed(report, "report");
-        std::vector<abut::Scene> models;
-        for (const abut_scene* scene : abut::needed(scenes, count, "scenes"))
-            models.push_back(abut::needed(scene, "a scene").scene);
+        std::vector<abut::Scene> models =
+            abut::scenes_from_c(abut::needed(scenes, count, "scenes"));
         const abut::ProgressInC progress(options);
         abut::ClashReport found =
             find_clashes(models, abut::options_from_c(options, progress.progress()));

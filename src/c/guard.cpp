@@ -3,6 +3,7 @@
 #include <abut/make_mesh.h>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <new>
 
@@ -76,17 +77,28 @@ abut_pose to_c(const Pose& pose) {
     return result;
 }
 
-Transform from_c(const abut_transform* transform) {
+Transform from_c(const abut_transform* transform, const char* name) {
     Transform result;
-    if (transform != nullptr)
-        std::copy_n(transform->m, 12, result.m.begin());
+    if (transform == nullptr)
+        return result;
+    std::copy_n(transform->m, 12, result.m.begin());
+    if (!std::all_of(result.m.begin(), result.m.end(), [](double v) { return std::isfinite(v); }))
+        throw Error(ErrorCode::bad_argument, std::string(name) + " has a value that is not finite");
     return result;
 }
 
+bool is_signed(int flags) {
+    if ((flags & ~ABUT_SIGNED) != 0)
+        throw Error(ErrorCode::bad_argument,
+                    "flags: " + std::to_string(flags) + " is neither 0 nor ABUT_SIGNED");
+    return flags == ABUT_SIGNED;
+}
+
 std::vector<Vec3> from_c(const abut_vec3* points, std::size_t count) {
+    const std::span<const abut_vec3> given = needed(points, count, "points");
     std::vector<Vec3> result;
     result.reserve(count);
-    for (const abut_vec3& point : needed(points, count, "points"))
+    for (const abut_vec3& point : given)
         result.push_back(from_c(point));
     return result;
 }

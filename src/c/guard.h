@@ -7,9 +7,12 @@
 #include <abut/types.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <string>
+#include <unordered_set>
+#include <utility>
 #include <vector>
 
 /// The handles of abut/c.h.
@@ -17,7 +20,13 @@ struct abut_model { // NOLINT(readability-identifier-naming)
     abut::Model model;
 };
 struct abut_scene { // NOLINT(readability-identifier-naming)
+    explicit abut_scene(abut::Scene parts) : scene(std::move(parts)) {
+        for (const abut::Part& part : scene.parts)
+            ids.insert(part.id);
+    }
+
     abut::Scene scene;
+    std::unordered_set<std::string> ids; ///< of its parts
 };
 
 namespace abut {
@@ -45,21 +54,16 @@ T& needed(T* pointer, const char* name) {
     return *pointer;
 }
 
-/// As above for an array; an empty one may be null.
+/// As above for an array of `count` times `width` elements; an empty one may be null. Throws also
+/// if no memory can hold so many.
 template <class T>
-std::span<T> needed(T* pointer, std::size_t count, const char* name) {
+std::span<T> needed(T* pointer, std::size_t count, const char* name, std::size_t width = 1) {
+    constexpr std::size_t kMostBytes = std::numeric_limits<std::ptrdiff_t>::max();
+    if (count > kMostBytes / (width * sizeof(T)))
+        throw Error(ErrorCode::bad_argument, std::string(name) + " are more than memory can hold");
     if (count != 0)
         needed(pointer, name);
-    return {pointer, count};
-}
-
-/// As above for an array of `count` times three elements.
-template <class T>
-std::span<T> needed_triples(T* pointer, std::size_t count, const char* name) {
-    constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max() / (3 * sizeof(T));
-    if (count > kMost)
-        throw Error(ErrorCode::bad_argument, std::string(name) + " are more than memory can hold");
-    return needed(pointer, 3 * count, name);
+    return {pointer, count * width};
 }
 
 inline Vec3 from_c(const abut_vec3& v) {
@@ -72,8 +76,10 @@ inline abut_vec3 to_c(const Vec3& v) {
 
 Pose from_c(const abut_pose& pose);
 abut_pose to_c(const Pose& pose);
-/// The identity if the pointer is null.
-Transform from_c(const abut_transform* transform);
+/// The identity if the pointer is null. Throws Error{bad_argument} if a value is not finite.
+Transform from_c(const abut_transform* transform, const char* name);
+/// Whether ABUT_SIGNED is set. Throws Error{bad_argument} if any other flag is.
+bool is_signed(int flags);
 std::vector<Vec3> from_c(const abut_vec3* points, std::size_t count);
 
 /// Throws Error{bad_mesh} if an index is out of range or a coordinate is not finite.

@@ -21,8 +21,8 @@ struct PairInC {
 
     PairInC(const abut_model* first, const abut_transform* world_from_first,
             const abut_model* second, const abut_transform* world_from_second)
-        : a(needed(first, "a").model), world_from_a(from_c(world_from_first)),
-          b(needed(second, "b").model), world_from_b(from_c(world_from_second)) {}
+        : a(needed(first, "a").model), world_from_a(from_c(world_from_first, "world_from_a")),
+          b(needed(second, "b").model), world_from_b(from_c(world_from_second, "world_from_b")) {}
 };
 
 abut_motion motion_to_c(const Motion& motion) {
@@ -30,6 +30,12 @@ abut_motion motion_to_c(const Motion& motion) {
             .centre = to_c(motion.centre),
             .velocity = to_c(motion.velocity),
             .angular_velocity = to_c(motion.angular_velocity)};
+}
+
+/// Returns the motion. Throws Error{bad_argument} unless it is valid.
+const Motion& valid(const Motion& motion) {
+    static_cast<void>(at(motion, 1));
+    return motion;
 }
 
 Motion motion_from_c(const abut_motion& motion) {
@@ -69,9 +75,9 @@ abut_status model_from_numbers(const Number* vertices, std::size_t vertex_count,
                                abut_model** model) {
     return guarded([&] {
         abut_model*& result = needed(model, "model");
-        result = new abut_model{
-            Model(make_mesh(needed_triples(vertices, vertex_count, "vertices"),
-                            needed_triples(triangles, triangle_count, "triangles")))};
+        result =
+            new abut_model{Model(make_mesh(needed(vertices, vertex_count, "vertices", 3),
+                                           needed(triangles, triangle_count, "triangles", 3)))};
     });
 }
 
@@ -145,7 +151,7 @@ abut_status abut_distance(const abut_model* a, const abut_transform* world_from_
         abut_gap& result = needed(gap, "gap");
         const PairInC pair(a, world_from_a, b, world_from_b);
         const Gap found = distance(pair.a, pair.world_from_a, pair.b, pair.world_from_b,
-                                   {.signed_distance = (flags & ABUT_SIGNED) != 0});
+                                   {.signed_distance = is_signed(flags)});
         result = {.distance = found.distance,
                   .at_least = found.at_least,
                   .point_a = to_c(found.point_a),
@@ -180,15 +186,15 @@ abut_status abut_motion_between(const abut_pose* start, const abut_pose* end,
     return guarded([&] {
         abut_motion& result = needed(motion, "motion");
         const Vec3 point = about == nullptr ? Vec3{} : from_c(*about);
-        result = motion_to_c(
-            Motion::between(from_c(needed(start, "start")), from_c(needed(end, "end")), point));
+        result = motion_to_c(valid(
+            Motion::between(from_c(needed(start, "start")), from_c(needed(end, "end")), point)));
     });
 }
 
 abut_status abut_motion_fixed(const abut_pose* pose, abut_motion* motion) {
     return guarded([&] {
         abut_motion& result = needed(motion, "motion");
-        result = motion_to_c(Motion::fixed(from_c(needed(pose, "pose"))));
+        result = motion_to_c(valid(Motion::fixed(from_c(needed(pose, "pose")))));
     });
 }
 

@@ -1,6 +1,7 @@
 #include <abut/error.h>
 #include <abut/world.h>
 
+#include "core/arguments.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "deform/deformable_data.h"
@@ -226,6 +227,7 @@ std::vector<BodyGap> World::penetration(const Progress& progress) {
 
 std::vector<BodyGap> World::within(double distance, const Progress& progress) {
     require(distance >= 0 && distance < HUGE_VAL, "distance must be a length, not negative");
+    data_->update_if_changed();
     const std::vector<IndexPair> near =
         overlapping_boxes(data_->boxes(), distance,
                           [&](std::uint32_t i, std::uint32_t k) { return data_->may_meet(i, k); });
@@ -277,6 +279,7 @@ std::vector<BodyImpact> World::time_of_impact(const std::vector<BodyMotion>& mot
         motion_of[each.body.index] = each.motion;
         moves[each.body.index] = 1;
     }
+    data_->update_if_changed();
     std::vector<Box3> swept(bodies.size());
     parallel_for(bodies.size(), 64, [&](std::size_t i) {
         const Body& body = bodies[i];
@@ -321,17 +324,23 @@ void World::set_speed(BodyId body, const SpeedBounds& bounds) {
 }
 
 std::vector<BodyPair> World::advance(double time, const Progress& progress) {
+    require(time >= 0 && time < HUGE_VAL, "time must not be negative, and finite");
+    data_->update_if_changed();
     return schedule_->advance(time, progress);
 }
-double World::next_event() const {
+double World::next_event() {
+    data_->update_if_changed();
     return schedule_->next_event();
 }
-double World::time_to_collision(double limit, const Progress& progress) const {
+double World::time_to_collision(double limit, const Progress& progress) {
+    require_not_negative(limit, "limit of a time to collision");
+    data_->update_if_changed();
     return schedule_->time_to_collision(limit, progress);
 }
-double World::time_to_collision(BodyId a, BodyId b) const {
+double World::time_to_collision(BodyId a, BodyId b) {
     static_cast<void>(data_->body(a)), static_cast<void>(data_->body(b)); // throw if not valid
     require(a.index != b.index, "a time to collision needs two bodies");
+    data_->update_if_changed();
     return schedule_->time_to_collision(a.index, b.index);
 }
 const ScheduleCounters& World::schedule_counters() const noexcept {

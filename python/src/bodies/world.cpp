@@ -196,7 +196,9 @@ void add_world_state(py::class_<Bodies>& type) {
 void add_world_pairs(py::class_<Bodies>& type) {
     type.def(
             "update", [](Bodies& self) { self.run([](World& world) { world.update(); }); },
-            "Finds the pairs of bodies whose boxes overlap. Every query does so first.")
+            "Finds the pairs of bodies whose boxes overlap. Every query does so first if a body "
+            "has "
+            "changed.")
         .def(
             "pairs",
             [](Bodies& self) {
@@ -209,13 +211,13 @@ void add_world_pairs(py::class_<Bodies>& type) {
             [](Bodies& self) {
                 return pairs_of(self.run([](World& world) { return world.begun(); }));
             },
-            "Pairs that began with the last update.")
+            "Pairs that began with the last update, or with the query that made it.")
         .def(
             "ended",
             [](Bodies& self) {
                 return pairs_of(self.run([](World& world) { return world.ended(); }));
             },
-            "Pairs that ended with the last update.");
+            "Pairs that ended with the last update, or with the query that made it.");
 }
 
 void add_world_queries(py::class_<Bodies>& type) {

@@ -71,10 +71,12 @@ void PairList::set_pairs_current() {
 }
 
 void PairList::find_changes() {
-    constexpr std::size_t kPairsOfTask = 1 << 14;
-    const std::size_t tasks = pairs_.size() / kPairsOfTask + 1;
+    // One task at least: if there are no pairs now, all those of the last step have ended.
+    const std::size_t tasks =
+        std::max<std::size_t>((pairs_.size() + kPairsOfTask - 1) / kPairsOfTask, 1);
     std::vector<Differences> changes(tasks);
-    // Cuts the last list at the pairs at which the new list is cut.
+    // Cuts the last list at the pairs at which the new list is cut. Only a task that has pairs of
+    // the new list has a first pair.
     const auto cut = [&](std::size_t task) {
         if (task == 0)
             return last_.begin();

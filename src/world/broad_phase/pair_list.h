@@ -23,6 +23,9 @@ using BoxMarks = std::vector<std::uint8_t>;
 /// threads may read at once.
 class PairList {
 public:
+    /// How many pairs a task compares with those of the last step.
+    static constexpr std::size_t kPairsOfTask = std::size_t{1} << 14;
+
     [[nodiscard]] const std::vector<IndexPair>& pairs() const noexcept;
     /// The number of pairs. The sorted list need not be up to date for it.
     [[nodiscard]] std::size_t size() const { return size_; }

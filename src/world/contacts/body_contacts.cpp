@@ -6,6 +6,7 @@
 #include "math/transform.h"
 #include "math/vector.h"
 #include "world/contacts/solid_contacts.h"
+#include "world/narrow_phase/contact_rounding.h"
 #include "world/narrow_phase/offset_surface.h"
 
 #include <algorithm>
@@ -131,8 +132,39 @@ bool solid_contact(const PlacedBody& a, const PlacedBody& b, double margin,
     const auto* box_b = std::get_if<RoundedBox>(&b.shape);
     if (box_a == nullptr || box_b == nullptr)
         return convex_contact(a, b, margin, warm_start, manifold);
+    // Those that rounding puts beyond the margin are looked at too; is_within decides.
     return rounded_box_contact(placed(*box_a, a.world_from_body), placed(*box_b, b.world_from_body),
-                               margin, manifold);
+                               margin + 2 * contact_rounding(a, b), manifold);
+}
+
+/// Whether two bodies are at most the margin apart, as the other queries of a world tell it.
+bool is_within(const PlacedBody& a, const PlacedBody& b, double margin, PairWarmStart& warm_start) {
+    if (margin == 0)
+        return touch(a, b, warm_start);
+    const double bound = std::nextafter(margin, HUGE_VAL);
+    return gap_between(a, b, bound, Depths::no, warm_start).distance <= margin;
+}
+
+/// Removes the manifolds from `first` on if they are nearly the margin apart and other queries say
+/// that the bodies are beyond it. Else no gap exceeds the margin.
+void keep_within_margin(const PlacedBody& a, const PlacedBody& b, double margin,
+                        PairWarmStart& warm_start, std::size_t first,
+                        std::vector<ContactManifold>& manifolds) {
+    const double rounding = contact_rounding(a, b);
+    if (rounding == 0 || manifolds.size() == first)
+        return;
+    const auto begin = manifolds.begin() + static_cast<std::ptrdiff_t>(first);
+    double deepest = -HUGE_VAL;
+    for (auto each = begin; each != manifolds.end(); ++each)
+        for (std::uint32_t i = 0; i < each->count; ++i)
+            deepest = std::max(deepest, each->points[i].depth);
+    if (deepest <= -margin + 2 * rounding && !is_within(a, b, margin, warm_start)) {
+        manifolds.erase(begin, manifolds.end());
+        return;
+    }
+    for (auto each = begin; each != manifolds.end(); ++each)
+        for (std::uint32_t i = 0; i < each->count; ++i)
+            each->points[i].depth = std::max(each->points[i].depth, -margin);
 }
 
 /// As append_surface_contacts, if both bodies have triangles. The result depends on nothing but the
@@ -152,6 +184,7 @@ void append_kept_contacts(const BodiesInContact& bodies, double margin, PairWarm
     const auto first = static_cast<std::ptrdiff_t>(manifolds.size());
     append_surface_contacts(*triangles_a, bodies.a.world_from_body, *triangles_b,
                             bodies.b.world_from_body, margin, manifolds);
+    keep_within_margin(bodies.a, bodies.b, margin, warm_start, std::size_t(first), manifolds);
     if (bodies.at_rest)
         kept = std::make_unique<RestingContacts>(RestingContacts{
             bodies.placements, margin, {manifolds.begin() + first, manifolds.end()}});
@@ -170,7 +203,9 @@ void append_contacts(const BodiesInContact& bodies, double margin, PairWarmStart
             append_one_point(a, b, margin, warm_start, manifolds);
     } else if (!has_faces(a.shape) || !has_faces(b.shape)) {
         append_one_point(a, b, margin, warm_start, manifolds);
-    } else if (!solid_contact(a, b, margin, warm_start, manifolds.emplace_back())) {
+    } else if (solid_contact(a, b, margin, warm_start, manifolds.emplace_back())) {
+        keep_within_margin(a, b, margin, warm_start, first, manifolds);
+    } else {
         manifolds.pop_back();
     }
     for (std::size_t i = first; i < manifolds.size(); ++i)

@@ -31,12 +31,15 @@ NearPairs::NearPairs(const WorldData& bodies)
 void NearPairs::update(double margin) {
     const std::vector<Box3>& boxes = bodies_.boxes();
     changed_.clear();
+    bool are_new = false; ///< whether another body has the index of an earlier one
+    is_new_.assign(boxes.size(), 0);
     generations_.resize(boxes.size());
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         const Box3 box = grown_by_half(boxes[i], margin);
         if (const std::uint32_t now = bodies_.bodies()[i].generation; generations_[i] != now) {
             broad_phase_.forget(); // another body had this index, with other rules
             generations_[i] = now;
+            is_new_[i] = 1, are_new = true;
         }
         if (i < boxes_.size() && boxes_[i] == box)
             continue;
@@ -49,6 +52,12 @@ void NearPairs::update(double margin) {
     changes_.add(broad_phase_.begun(), broad_phase_.ended());
     apply(changes_.settle(), broad_phase_.pairs(), warm_starts_);
     changes_.clear();
+    if (!are_new)
+        return;
+    // Such a pair may have been one before, so that it has not begun.
+    for (std::size_t k = 0; k < warm_starts_.size(); ++k)
+        if (const IndexPair pair = pairs()[k]; (is_new_[pair.a()] | is_new_[pair.b()]) != 0)
+            warm_starts_[k] = {};
 }
 
 } // namespace abut

@@ -37,6 +37,7 @@ private:
     std::vector<Box3> boxes_; ///< grown by half of the margin
     std::vector<std::uint32_t> generations_;
     std::vector<std::uint32_t> changed_;
+    std::vector<std::uint8_t> is_new_; ///< whether a body has another generation than before
     std::vector<PairWarmStart> warm_starts_;
     std::uint64_t last_placement_ = 0;
     PairChanges changes_; ///< empty between updates

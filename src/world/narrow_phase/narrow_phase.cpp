@@ -6,11 +6,13 @@
 #include "math/transform.h"
 #include "rigid/model/model_data.h"
 #include "rigid/solid/containment.h"
+#include "world/narrow_phase/contact_rounding.h"
 #include "world/narrow_phase/offset_surface.h"
 #include "world/narrow_phase/solid_gap.h"
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 // The table of shape pairs: an overload of `meet` and of `measure` for each pair of kinds. Surfaces
 // come before convex bodies, these before rounded boxes, then curved shapes and half-spaces. For the
@@ -29,6 +31,12 @@ using PlacedConvex = Placed<ConvexShape>;
 using PlacedRounded = Placed<RoundedBox>;
 using PlacedCurved = Placed<CurvedShape>;
 using PlacedPlane = Placed<PlaneShape>;
+
+/// See contact_rounding.h.
+template <typename ShapeA, typename ShapeB>
+double rounding_of(const Placed<ShapeA>& a, const Placed<ShapeB>& b) {
+    return contact_share(a.shape) + contact_share(b.shape);
+}
 
 SupportShape support_of(const PlacedConvex& convex) {
     return support_of(convex.shape, convex.world);
@@ -149,10 +157,17 @@ bool meet(const PlacedConvex& a, const PlacedConvex& b, PairWarmStart& warm_star
 bool meet(const PlacedConvex& a, const PlacedRounded& b, PairWarmStart& warm_start) {
     const RoundedBox solid = placed(b.shape, b.world);
     const Core core = core_of(solid);
+    const double touching = rounding_of(a, b);
     ConvexDistanceOptions options;
     options.warm_start = &warm_start.solids;
-    return distance(a.shape.solid, a.world, core.convex, core.world, options).distance <=
-           solid.radius;
+    const auto gap = [&] {
+        return distance(a.shape.solid, a.world, core.convex, core.world, options).distance -
+               solid.radius;
+    };
+    if (const double first = gap(); std::abs(first - touching) > 0.5 * touching)
+        return first < touching;
+    options.warm_start = nullptr; // where rounding decides, earlier queries must not
+    return gap() <= touching;
 }
 
 bool meet(const PlacedSurface& a, const PlacedRounded& b, PairWarmStart& /*warm_start*/) {
@@ -161,9 +176,10 @@ bool meet(const PlacedSurface& a, const PlacedRounded& b, PairWarmStart& /*warm_
     case 0:
         return overlaps(a.shape, a.world, Sphere{solid.centre, solid.radius});
     case 1: {
+        const double touching = solid.radius + rounding_of(a, b);
         DistanceOptions options;
-        options.upper_bound = std::nextafter(solid.radius, HUGE_VAL);
-        return distance(a.shape, a.world, axis_of(solid), options).distance <= solid.radius;
+        options.upper_bound = std::nextafter(touching, HUGE_VAL);
+        return distance(a.shape, a.world, axis_of(solid), options).distance <= touching;
     }
     default:
         return overlaps(a.shape, a.world, OrientedBox{own_box(b.shape), b.world});
@@ -171,8 +187,9 @@ bool meet(const PlacedSurface& a, const PlacedRounded& b, PairWarmStart& /*warm_
 }
 
 bool meet(const PlacedRounded& a, const PlacedRounded& b, PairWarmStart& /*warm_start*/) {
-    return rounded_box_distance(placed(a.shape, a.world), placed(b.shape, b.world), 0).distance <=
-           0;
+    const double touching = rounding_of(a, b);
+    return rounded_box_distance(placed(a.shape, a.world), placed(b.shape, b.world), touching)
+               .distance <= touching;
 }
 
 BodyGap measure(const PlacedSurface& a, const PlacedSurface& b, double upper_bound, Depths depths,
@@ -275,12 +292,21 @@ BodyGap measure(const PlacedRounded& a, const PlacedRounded& b, double upper_bou
 }
 
 /// A curved shape with a surface, and with a solid of any kind but a half-space.
-bool meet(const PlacedSurface& a, const PlacedCurved& b, PairWarmStart& warm_start) {
-    return surface_meets(a.shape, a.world, support_of(b), warm_start.direction);
+bool meet(const PlacedSurface& a, const PlacedCurved& b, PairWarmStart& /*warm_start*/) {
+    return surface_meets(a.shape, a.world, support_of(b), rounding_of(a, b));
 }
 template <typename Solid>
 bool meet(const Placed<Solid>& a, const PlacedCurved& b, PairWarmStart& warm_start) {
-    return supports_meet(support_of(a), support_of(b), warm_start.direction);
+    const SupportShape solid = support_of(a), curved = support_of(b);
+    const double touching = rounding_of(a, b);
+    Vec3& last = warm_start.direction;
+    if (last != Vec3{} && separation_along(solid, curved, last) > 2 * touching)
+        return false;
+    Vec3 direction; // where rounding decides, earlier queries must not
+    const SupportGap gap = support_gap(solid, curved, touching, SupportDepths::no, direction);
+    if (direction != Vec3{})
+        last = direction;
+    return gap.distance <= touching;
 }
 BodyGap measure(const PlacedSurface& a, const PlacedCurved& b, double upper_bound, Depths depths,
                 PairWarmStart& warm_start) {
@@ -305,7 +331,7 @@ BodyGap gap_of_plane(const Placed<Solid>& a, const PlacedPlane& b) {
 }
 template <typename Shape>
 bool meet(const Placed<Shape>& a, const PlacedPlane& b, PairWarmStart& /*warm_start*/) {
-    return gap_of_plane(a, b).distance <= 0;
+    return gap_of_plane(a, b).distance <= rounding_of(a, b);
 }
 template <typename Shape>
 BodyGap measure(const Placed<Shape>& a, const PlacedPlane& b, double /*upper_bound*/,
@@ -345,6 +371,17 @@ constexpr int kRank = std::is_same_v<Kind, Model>         ? 0
                       : std::is_same_v<Kind, CurvedShape> ? 3
                                                           : 4;
 
+/// Whether two shapes of one kind are to be swapped, so that their gap does not depend on which of
+/// them is a. That of surfaces and convex bodies does not anyway, but for the choice of closest
+/// points.
+template <typename Shape>
+bool is_swapped(const Placed<Shape>& a, const Placed<Shape>& b) {
+    if constexpr (std::is_same_v<Shape, RoundedBox> || std::is_same_v<Shape, CurvedShape>)
+        return comes_before(b.shape, b.world, a.shape, a.world);
+    else
+        return false;
+}
+
 /// Calls query(a, b) with the shapes in the table's order. If that swaps them, returns
 /// turn(result).
 template <typename Query, typename Turn>
@@ -357,10 +394,14 @@ auto with_shapes(const PlacedBody& a, const PlacedBody& b, const Query& query, c
             using KindB = std::decay_t<decltype(kind_b)>;
             const Placed<KindA> placed_a{kind_a, a.world_from_body};
             const Placed<KindB> placed_b{kind_b, b.world_from_body};
-            if constexpr (kRank < KindA >> kRank<KindB>)
+            // The branch that the kinds exclude is not compiled.
+            if constexpr ((kRank<KindA>) > (kRank<KindB>))
                 return turn(query(placed_b, placed_a));
-            else
+            else if constexpr ((kRank<KindA>) < (kRank<KindB>))
                 return query(placed_a, placed_b);
+            else
+                return is_swapped(placed_a, placed_b) ? turn(query(placed_b, placed_a))
+                                                      : query(placed_a, placed_b);
         },
         a.shape, b.shape);
 }
@@ -375,12 +416,21 @@ bool touch(const PlacedBody& a, const PlacedBody& b, PairWarmStart& warm_start) 
 
 BodyGap gap_between(const PlacedBody& a, const PlacedBody& b, double upper_bound, Depths depths,
                     PairWarmStart& warm_start) {
-    return with_shapes(
+    // Whether bodies touch, `touch` decides alone. Twice the rounding: what it decides is rounded
+    // too. A gap up to there must be known, not only that it exceeds a lower bound.
+    const double rounding = contact_rounding(a, b);
+    const double bound = std::max(upper_bound, 2 * rounding);
+    BodyGap gap = with_shapes(
         a, b,
-        [&](const auto& x, const auto& y) {
-            return measure(x, y, upper_bound, depths, warm_start);
-        },
-        [](const BodyGap& gap) { return turned_round(gap); });
+        [&](const auto& x, const auto& y) { return measure(x, y, bound, depths, warm_start); },
+        [](const BodyGap& gap_of_b) { return turned_round(gap_of_b); });
+    if (rounding == 0 || !(std::abs(gap.distance) <= 2 * rounding))
+        return gap;
+    if (touch(a, b, warm_start))
+        gap.distance = std::min(gap.distance, 0.0);
+    else
+        gap.distance = std::max(gap.distance, rounding);
+    return gap;
 }
 
 } // namespace abut

@@ -150,11 +150,14 @@ BodyGap solid_gap(const PlaneShape& a, const PlaneShape& b) {
 }
 
 bool surface_meets(const Model& model, const Transform& world_from_model, const SupportShape& solid,
-                   Vec3& direction) {
+                   double touching) {
     const PlacedModel placed_model(model, world_from_model);
     bool meet = false;
-    placed_model.for_each_overlap(box_around(solid), [&](std::uint32_t slot) {
-        meet = meet || supports_meet(support_of(placed_model.world_slot(slot)), solid, direction);
+    Vec3 direction;
+    placed_model.for_each_overlap(grown(box_around(solid), touching), [&](std::uint32_t slot) {
+        meet = meet || support_gap(support_of(placed_model.world_slot(slot)), solid, touching,
+                                   SupportDepths::no, direction)
+                               .distance <= touching;
     });
     return meet;
 }

@@ -21,9 +21,9 @@ BodyGap solid_gap(const SupportShape& a, const PlaneShape& plane);
 /// The gap of two half-spaces. They overlap without end unless their normals are opposite.
 BodyGap solid_gap(const PlaneShape& a, const PlaneShape& b);
 
-/// Whether a model's surface shares a point with a solid.
+/// Whether a model's surface shares a point with a solid, or is at most `touching` from it.
 bool surface_meets(const Model& model, const Transform& world_from_model, const SupportShape& solid,
-                   Vec3& direction);
+                   double touching);
 /// The gap of a model's surface and a solid. If they meet: 0, or with depths minus the depth of a
 /// triangle that is deep in the solid (bound_only).
 BodyGap surface_gap(const Model& model, const Transform& world_from_model,

@@ -2,6 +2,8 @@
 
 #include <abut/error.h>
 
+#include "world/narrow_phase/contact_rounding.h"
+
 #include <algorithm>
 #include <bit>
 #include <string>
@@ -62,7 +64,7 @@ BodyId WorldData::add(BodyShape shape, const Pose& pose, const BodyOptions& opti
     to.shape = std::move(shape);
     to.pose = pose, to.world_from_body = world_from_body;
     to.options = options;
-    to.generation = id.generation, to.alive = true;
+    to.generation = id.generation, to.alive = true, to.seen = false;
     ++alive_;
     fit_box(id.index);
     return id;
@@ -74,7 +76,7 @@ void WorldData::remove(BodyId id) {
     gone.placement = ++last_placement_;
     gone.shape = RoundedBox();
     boxes_[id.index] = Box3();
-    removed_.push_back(id.index);
+    (gone.seen ? removed_ : free_).push_back(id.index);
     --alive_;
     set_changed(id.index);
 }
@@ -127,18 +129,20 @@ void WorldData::set_changed(std::uint32_t index) {
 void WorldData::fit_box(std::uint32_t index) {
     Body& body = bodies_[index];
     body.placement = ++last_placement_;
-    boxes_[index] = bounds_of(body.shape, body.own_bounds, body.world_from_body);
+    const Box3 box = bounds_of(body.shape, body.own_bounds, body.world_from_body);
+    boxes_[index] = is_empty(box) ? box : grown(box, contact_share(body.shape, body.own_bounds));
     set_changed(index);
 }
 
 void WorldData::update() {
     broad_phase_.update(boxes_, changed_);
     pair_changes_.add(broad_phase_.begun(), broad_phase_.ended());
-    // Without a query the changes would pile up.
-    if (pair_changes_.size() > warm_starts_.size())
+    // Without a query the changes would pile up. A pair that ended must not be taken for one that
+    // has stayed, once another body has the index that becomes free here.
+    if (pair_changes_.size() > warm_starts_.size() || !ended_.empty())
         static_cast<void>(warm_starts());
     for (const std::uint32_t index : changed_)
-        is_changed_[index] = 0;
+        is_changed_[index] = 0, bodies_[index].seen = true;
     changed_.clear();
     refiltered_ = false;
     free_.insert(free_.end(), ended_.begin(), ended_.end());

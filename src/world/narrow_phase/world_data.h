@@ -24,6 +24,7 @@ struct Body {
     /// A number that no other body and no other placement of this body has had in this world.
     std::uint64_t placement = 0;
     bool alive = false;
+    bool seen = false; ///< by an update, so that lists of pairs may refer to it
 };
 
 /// The bodies of a world and the data of their pairs. The world's queries work on these.
@@ -47,6 +48,8 @@ public:
     [[nodiscard]] const Body& body(BodyId id) const;
 
     void update();
+    /// Updates if anything has changed since the last update, so that each query sees the bodies as
+    /// they are and a removed body's place becomes free whatever is asked.
     void update_if_changed();
 
     [[nodiscard]] std::size_t size() const { return alive_; }
@@ -85,7 +88,7 @@ private:
     std::vector<Box3> boxes_; ///< empty where there is no body
     std::vector<std::uint32_t> free_;
     /// Indices removed since the last update, and in the step before it. An index becomes free when
-    /// no list of ended pairs can refer to it any more.
+    /// no list of ended pairs can refer to it any more: at once if no update has seen the body.
     std::vector<std::uint32_t> removed_, ended_;
     std::vector<std::uint32_t> changed_; ///< changed since the last update, each once
     std::vector<std::uint8_t> is_changed_;

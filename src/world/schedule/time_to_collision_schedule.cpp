@@ -1,6 +1,5 @@
 #include "world/schedule/time_to_collision_schedule.h"
 
-#include "core/arguments.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/stop.h"
@@ -258,7 +257,6 @@ void CollisionSchedule::count_payment(Measurement measurement) {
 }
 
 std::vector<BodyPair> CollisionSchedule::advance(double time, const Progress& progress) {
-    require(time >= 0 && time < kNoCollision, "time must not be negative, and finite");
     now_ += time;
     if (time > 0)
         step_ = time;
@@ -361,7 +359,6 @@ double CollisionSchedule::next_event() {
 }
 
 double CollisionSchedule::time_to_collision(double limit, const Progress& progress) {
-    require_not_negative(limit, "limit of a time to collision");
     constexpr int kMostSweeps = 30;
     const StopScope stopping(progress);
     catch_up(step_);

@@ -25,6 +25,7 @@ public:
     /// The next step finds all pairs anew, because the rules about which bodies may meet have
     /// changed.
     void forget() { broad_phase_.forget(), horizon_ = -1; }
+    /// As World::advance. In: a valid time, here and below; the world's bodies are up to date.
     std::vector<BodyPair> advance(double time, const Progress& progress);
     /// As World::next_event. It improves the estimates that come first.
     double next_event();
