@@ -129,7 +129,10 @@ std::vector<EdgeFace> PlacedBlocks::faces_around(std::uint32_t triangle, std::si
         const auto block = placed(i);
         const Mesh& mesh = block->block->model.mesh();
         block->placed.for_each_overlap({at, at}, [&](std::uint32_t slot) {
-            const auto& t = mesh.triangles[block->placed.data().triangle_at(slot)];
+            const std::uint32_t local = block->placed.data().triangle_at(slot);
+            if (bounds_nothing(block->block->numbers[local]))
+                return;
+            const auto& t = mesh.triangles[local];
             const Triangle v{mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
             if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
                 return;
@@ -205,17 +208,33 @@ void PlacedBlocks::for_each_block(const Box3& region,
     }
 }
 
+bool PlacedBlocks::bounds_nothing(std::uint32_t triangle) const {
+    const std::vector<std::int8_t>& weights = blocks_.solid().weights;
+    return !weights.empty() && weights[triangle] == 0;
+}
+
 std::optional<int> PlacedBlocks::crossings(const Vec3& from, const Vec3& to) const {
+    const std::vector<std::int8_t>& weights = blocks_.solid().weights;
+    std::vector<std::int8_t> of_block;
     int sum = 0;
     for (std::size_t i = 0; i < size(); ++i) {
         if (is_empty(boxes_[i]) || !may_meet(from, to, boxes_[i]))
             continue;
-        const std::optional<int> count = abut::crossings(placed(i)->placed, from, to);
+        const auto block = placed(i);
+        of_block.clear();
+        if (!weights.empty())
+            for (const std::uint32_t number : block->block->numbers)
+                of_block.push_back(weights[number]);
+        const std::optional<int> count =
+            abut::crossings(block->placed, from, to, nullptr, of_block);
         if (!count)
             return std::nullopt;
         sum += *count;
     }
-    return sum;
+    if (!is_oriented())
+        return sum;
+    const int side = weights.empty() ? blocks_.solid().outward : 1;
+    return sum * (mirrored_ ? -side : side);
 }
 
 double PlacedBlocks::winding(const Vec3& point) const {
@@ -228,7 +247,8 @@ double PlacedBlocks::winding(const Vec3& point) const {
             continue;
         const auto block = placed(i);
         for (std::uint32_t t = 0; t < block->block->numbers.size(); ++t)
-            sum += half_solid_angle(block->placed.world_triangle(t), point);
+            if (const int times = is_oriented() ? weight(block->block->numbers[t]) : 1; times != 0)
+                sum += times * half_solid_angle(block->placed.world_triangle(t), point);
     }
     return sum / (2 * std::numbers::pi);
 }

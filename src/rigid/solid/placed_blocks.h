@@ -46,6 +46,12 @@ public:
     [[nodiscard]] int outward() const override {
         return mirrored_ ? -blocks_.solid().outward : blocks_.solid().outward;
     }
+    [[nodiscard]] int weight(std::uint32_t triangle) const override {
+        return mirrored_ ? -blocks_.solid().weight(triangle) : blocks_.solid().weight(triangle);
+    }
+    [[nodiscard]] bool is_oriented() const override { return blocks_.solid().is_oriented(); }
+    [[nodiscard]] bool is_mirrored() const override { return mirrored_; }
+    [[nodiscard]] bool knows_boundary() const override { return !blocks_.solid().may_overlap; }
     [[nodiscard]] std::vector<Vec3> component_points() const override;
     [[nodiscard]] Vec3 middle() const override { return middle_; }
     [[nodiscard]] double reach() const override { return reach_; }
@@ -81,6 +87,8 @@ private:
         return apply(world_, p) - origin_.value_or(Vec3{});
     }
     [[nodiscard]] std::uint32_t name_of(std::uint32_t triangle) const;
+    /// Returns whether a triangle is dropped from the solid's boundary.
+    [[nodiscard]] bool bounds_nothing(std::uint32_t triangle) const;
 
     const ModelBlocks& blocks_;
     Transform world_;
