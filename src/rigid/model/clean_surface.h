@@ -16,15 +16,16 @@ struct CleanSurface {
     /// The dropped triangles of components that are not closed, whatever is dropped. They may still
     /// bound a solid but for T-junctions.
     std::vector<std::uint32_t> open;
+    std::vector<std::uint32_t> copies; ///< the dropped triangles of which another copy is left
     /// A dropped triangle is no duplicate of one that is left: it is a surface of its own.
     bool has_sheets = false;
 };
 
 /// Drops, in this order,
 /// 1. duplicates: triangles of the same three positions as another one. Of copies with one
-///    orientation, those go that form a closed surface by themselves, and those without which the
-///    surface around them has no border. So the face that two shells share stays if both shells
-///    are closed by it;
+///    orientation, those go that form a closed surface by themselves, and then those without which
+///    the surface around them has no border; one copy always stays. So the face that two shells
+///    share stays in both;
 /// 2. in components with a border: what hangs by an edge. A triangle with an edge of its own is
 ///    dropped, again and again. The rest stays if it has no border then; otherwise the component
 ///    is open.

@@ -57,22 +57,41 @@ FaceFragments::FaceFragments(Mesh mesh, std::vector<Face> faces)
     join_neighbours();
 }
 
-/// Whether a triangle meets one of another shell, or one of its own shell with which it shares no
-/// vertex.
+/// Whether two triangles share more points than their common vertices and the edges between these.
 bool FaceFragments::meets(std::uint32_t f, std::uint32_t g) const {
-    if (f == g)
+    const Triangle tf = corners(f), tg = corners(g);
+    std::array<bool, 3> of_f{}, of_g{}; // common corners
+    int common = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+            if (tf[i] == tg[j])
+                of_f.at(i) = of_g.at(j) = true, ++common;
+    if (f == g || collinear(tg[0], tg[1], tg[2]))
         return false;
-    const auto &vf = mesh().triangles[f], &vg = mesh().triangles[g];
-    if (faces_[f].shell == faces_[g].shell && faces_[f].solid == faces_[g].solid)
-        for (const std::uint32_t v : vf)
-            for (const std::uint32_t w : vg)
-                if (vertex_of_[v] == vertex_of_[w])
-                    return false;
-    return triangle_triangle_intersect(corners(f), corners(g)) != TriangleContact::none;
+    if (common == 0)
+        return triangle_triangle_intersect(tf, tg) != TriangleContact::none;
+    const auto other = [](const std::array<bool, 3>& is_common, bool which) {
+        return static_cast<std::size_t>(std::ranges::find(is_common, which) - is_common.begin());
+    };
+    if (common == 1) {
+        // What they share begins at the common corner, and ends at the edge opposite to it of one.
+        const std::size_t i = other(of_f, true), j = other(of_g, true);
+        return segment_triangle_intersect(tf[(i + 1) % 3], tf[(i + 2) % 3], tg) ||
+               segment_triangle_intersect(tg[(j + 1) % 3], tg[(j + 2) % 3], tf);
+    }
+    if (common == 3)
+        return true;
+    // Folded onto each other around the common edge.
+    const Vec3 &p = tf[other(of_f, false)], &q = tg[other(of_g, false)];
+    if (orient3d(tf[0], tf[1], tf[2], q) != 0)
+        return false;
+    const std::size_t i = other(of_f, false);
+    const Vec3 &e0 = tf[(i + 1) % 3], &e1 = tf[(i + 2) % 3];
+    const int axis = projection_axis(tf);
+    return orient2d(e0, e1, p, axis) == orient2d(e0, e1, q, axis);
 }
 
 void FaceFragments::find_meetings() {
-    vertex_of_ = make_topology(mesh()).vertex_of;
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
         poll_stop();
         const Triangle t = corners(f);
@@ -96,8 +115,7 @@ void FaceFragments::join_neighbours() {
     for (std::size_t begin = 0, end = 0; begin < e.size(); begin = end) {
         end = begin + topology.edge(e[begin].from, e[begin].to).size();
         if (end - begin == 2 && meets_[e[begin].triangle].empty() &&
-            meets_[e[begin + 1].triangle].empty() && e[begin].from == e[begin + 1].to &&
-            faces_[e[begin].triangle].shell == faces_[e[begin + 1].triangle].shell)
+            meets_[e[begin + 1].triangle].empty() && e[begin].from == e[begin + 1].to)
             sets.unite(e[begin].triangle, e[begin + 1].triangle);
     }
     group_ = std::move(sets).roots();

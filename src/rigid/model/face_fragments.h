@@ -16,15 +16,14 @@ namespace abut {
 /// The faces of solids that overlap, cut where they meet each other, with the number of times that
 /// each solid winds around the points on both sides.
 ///
-/// A face that meets no face of another shell is not cut. Where its neighbours meet none either,
-/// one ray tells the sides of all of them.
+/// A face that meets no other one but its neighbours, at their common corners, is not cut. Where its
+/// neighbours meet none either, one ray tells the sides of all of them.
 class FaceFragments {
 public:
     /// A triangle of one of two solids.
     struct Face {
-        std::uint32_t shell = 0; ///< faces of one shell that share a vertex do not cut each other
-        std::uint8_t solid = 0;  ///< 0 or 1
-        std::int8_t weight = 0;  ///< as Solid::weights
+        std::uint8_t solid = 0; ///< 0 or 1
+        std::int8_t weight = 0; ///< as Solid::weights
     };
     /// In          faces: one for each triangle of the mesh.
     FaceFragments(Mesh mesh, std::vector<Face> faces);
@@ -74,7 +73,6 @@ private:
     PlacedModel placed_;
     std::vector<Face> faces_;
     double tolerance_;
-    std::vector<std::uint32_t> vertex_of_;          ///< merged vertices
     std::vector<std::vector<std::uint32_t>> meets_; ///< by triangle: those that cut it
     std::vector<std::uint32_t> group_; ///< by triangle: those of one group have the same sides
     std::size_t budget_;               ///< of fragments

@@ -151,6 +151,7 @@ ShellSets find_shells(const Mesh& mesh, const Topology& topology,
                 uses.push_back(edges[end]);
             ++end;
         }
+        result.shares_edges |= uses.size() > 2;
         if (uses.size() == 2)
             unite(uses[0].triangle, uses[1].triangle, uses[0].from == uses[1].from);
         else if (uses.size() > 2)

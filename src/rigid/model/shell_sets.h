@@ -17,7 +17,8 @@ struct ShellSets {
     std::vector<std::uint32_t> shell_of; ///< by triangle; kNone for dropped and degenerate ones
     /// By triangle: it is oriented against the first triangle of its shell. Empty if none is.
     std::vector<bool> reversed;
-    bool one_sided = false; ///< a shell has only one side
+    bool one_sided = false;    ///< a shell has only one side
+    bool shares_edges = false; ///< an edge has more than two uses
 };
 
 /// Returns pairs of uses of an edge, each in opposite directions: going around the edge, matter begins

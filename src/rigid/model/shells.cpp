@@ -195,7 +195,7 @@ public:
             find_cavities();
             set_weights();
         }
-        result_.may_overlap = may_overlap();
+        result_.may_overlap = sets_.shares_edges || may_overlap();
         return std::move(result_);
     }
 

@@ -78,6 +78,7 @@ void examine_faulty(Solid& s, const Mesh& mesh) {
     s.closed = clean.closed;
     s.solid = s.closed || outward != 0;
     s.has_sheets = clean.has_sheets;
+    s.copies = clean.copies;
     if (s.closed)
         orient(s, mesh, clean.dropped);
     if (outward == 0) {

@@ -36,7 +36,8 @@ struct Solid {
     bool has_parity_only = false;
     /// Two shells may have a common part, so that faces of one may lie inside the solid.
     bool may_overlap = false;
-    bool has_sheets = false; ///< as CleanSurface
+    bool has_sheets = false;           ///< as CleanSurface
+    std::vector<std::uint32_t> copies; ///< dropped duplicates of triangles that are left
     /// The triangles of components that are open and bound nothing; empty if none has a weight.
     std::vector<std::uint32_t> open;
 

@@ -2,7 +2,6 @@
 
 #include "core/parallel.h"
 #include "rigid/model/face_fragments.h"
-#include "rigid/model/shell_sets.h"
 
 #include <utility>
 
@@ -10,21 +9,32 @@ namespace abut {
 
 namespace {
 
-FaceFragments fragments_of(const Mesh& mesh, const Solid& solid) {
-    std::vector<bool> dropped(solid.weights.size());
-    for (std::size_t t = 0; t < dropped.size(); ++t)
-        dropped[t] = solid.weights[t] == 0;
-    const ShellSets shells = find_shells(mesh, solid.topology, dropped);
-    std::vector<FaceFragments::Face> faces(mesh.triangles.size());
-    for (std::uint32_t t = 0; t < faces.size(); ++t)
-        faces[t] = {shells.shell_of[t], 0, static_cast<std::int8_t>(solid.weight(t))};
-    return {mesh, std::move(faces)};
-}
+/// The triangles of a mesh without dropped copies.
+struct DistinctTriangles {
+    Mesh mesh;
+    std::vector<std::uint32_t> source; ///< by triangle: its number in the whole mesh
+    std::vector<FaceFragments::Face> faces;
+
+    DistinctTriangles(const Mesh& whole, const Solid& solid) {
+        mesh.positions = whole.positions;
+        std::size_t copy = 0;
+        for (std::uint32_t t = 0; t < whole.triangles.size(); ++t) {
+            if (copy < solid.copies.size() && solid.copies[copy] == t) {
+                ++copy;
+                continue;
+            }
+            mesh.triangles.push_back(whole.triangles[t]);
+            source.push_back(t);
+            faces.push_back({0, static_cast<std::int8_t>(solid.weight(t))});
+        }
+    }
+};
 
 /// Collects the fragments that do not lie inside the solid.
 class BoundaryMesh {
 public:
-    BoundaryMesh(const Mesh& mesh, const Solid& solid) : mesh_(mesh), solid_(solid) {
+    BoundaryMesh(const Mesh& mesh, const Solid& solid, const std::vector<std::uint32_t>& source)
+        : mesh_(mesh), solid_(solid), numbers_(source) {
         result_.positions = mesh.positions;
     }
 
@@ -36,15 +46,16 @@ public:
         }
         const int bounds = (under[0] >= 1 ? 1 : 0) - (over[0] >= 1 ? 1 : 0);
         const int weight = fragment.sides.is_first ? bounds : 0;
+        const std::uint32_t triangle = numbers_[fragment.triangle];
         if (fragment.is_whole) {
-            add(mesh_.triangles[fragment.triangle], fragment.triangle, weight);
+            add(mesh_.triangles[triangle], triangle, weight);
             return;
         }
         const auto first = static_cast<std::uint32_t>(result_.positions.size());
         result_.positions.insert(result_.positions.end(), fragment.corners.begin(),
                                  fragment.corners.end());
         for (std::uint32_t i = 2; i < fragment.corners.size(); ++i)
-            add({first, first + i - 1, first + i}, fragment.triangle, weight);
+            add({first, first + i - 1, first + i}, triangle, weight);
     }
 
     /// Null if nothing lies inside and each triangle counts as its solid says.
@@ -65,6 +76,7 @@ private:
 
     const Mesh& mesh_;
     const Solid& solid_;
+    const std::vector<std::uint32_t>& numbers_; ///< of the fragments' triangles in the mesh
     Mesh result_;
     std::vector<std::uint32_t> source_;
     std::vector<std::int8_t> weight_;
@@ -78,8 +90,9 @@ BoundarySearch find_boundary(const Mesh& mesh, const Solid& solid) {
     // A thread that searches must not run other tasks meanwhile: they might ask for the same
     // boundary.
     isolated([&] {
-        FaceFragments fragments = fragments_of(mesh, solid);
-        BoundaryMesh boundary(mesh, solid);
+        DistinctTriangles distinct(mesh, solid);
+        BoundaryMesh boundary(mesh, solid, distinct.source);
+        FaceFragments fragments(std::move(distinct.mesh), std::move(distinct.faces));
         result.is_known =
             fragments.for_each([&](const FaceFragments::Fragment& f) { boundary.add(f); });
         if (result.is_known)

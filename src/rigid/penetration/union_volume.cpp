@@ -1,8 +1,6 @@
 #include "rigid/penetration/union_volume.h"
 
-#include "mesh/topology.h"
 #include "rigid/model/face_fragments.h"
-#include "rigid/model/shell_sets.h"
 #include "rigid/model/solid_boundary.h"
 
 #include <algorithm>
@@ -41,37 +39,27 @@ private:
     double size_, volume_ = 0, error_ = 0;
 };
 
-/// The triangles of two solids, relative to a point, with their shells.
+/// The triangles of two solids, relative to a point, with their weights.
 struct SolidFaces {
     Mesh mesh;
     std::vector<FaceFragments::Face> faces;
 
     void add(const WorldSolid& solid, std::uint8_t number, const Vec3& origin) {
-        Mesh own;
-        std::vector<std::int8_t> weights;
         solid.for_each_block(solid.world_box(), [&](const WorldSolid::Block& block) {
             const auto count =
                 static_cast<std::uint32_t>(block.model.data().mesh().triangles.size());
             for (std::uint32_t t = 0; t < count; ++t) {
-                const auto first = static_cast<std::uint32_t>(own.positions.size());
+                const int weight = solid.weight(block.number(t));
+                if (weight == 0)
+                    continue;
+                const auto first = static_cast<std::uint32_t>(mesh.positions.size());
                 for (const Vec3& p : block.model.world_triangle(t))
-                    own.positions.push_back(p - origin);
-                own.triangles.push_back({first, first + 1, first + 2});
-                weights.push_back(static_cast<std::int8_t>(solid.weight(block.number(t))));
+                    mesh.positions.push_back(p - origin);
+                mesh.triangles.push_back({first, first + 1, first + 2});
+                faces.push_back({number, static_cast<std::int8_t>(weight)});
             }
-            return own.triangles.size() <= kMostOverlapTriangles;
+            return faces.size() <= kMostOverlapTriangles;
         });
-        std::vector<bool> dropped(weights.size());
-        for (std::size_t t = 0; t < dropped.size(); ++t)
-            dropped[t] = weights[t] == 0;
-        const ShellSets shells = find_shells(own, make_topology(own), dropped);
-        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-        mesh.positions.insert(mesh.positions.end(), own.positions.begin(), own.positions.end());
-        for (std::size_t t = 0; t < weights.size(); ++t) {
-            const auto& v = own.triangles[t];
-            mesh.triangles.push_back({first + v[0], first + v[1], first + v[2]});
-            faces.push_back({shells.shell_of[t], number, weights[t]});
-        }
     }
 };
 

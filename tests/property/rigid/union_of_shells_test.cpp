@@ -116,7 +116,7 @@ Shells random_shells(Random& random, int count) {
     return s;
 }
 
-/// Adds copies of random triangles: of one, of several, of all; in either direction.
+/// Adds copies of random triangles: some, thousands, or one of each.
 void add_duplicates(Random& random, Mesh& mesh) {
     const std::size_t count = mesh.triangles.size();
     if (random.chance(0.2)) {
@@ -124,7 +124,8 @@ void add_duplicates(Random& random, Mesh& mesh) {
             mesh.triangles.push_back(mesh.triangles[i]);
         return;
     }
-    const int copies = random.chance(0.1) ? 2000 : random.integer(1, 12);
+    const bool is_one_box = count == 12;
+    const int copies = is_one_box && random.chance(0.3) ? 2000 : random.integer(1, 12);
     for (int i = 0; i < copies; ++i)
         mesh.triangles.push_back(mesh.triangles[std::size_t(random.integer(0, int(count) - 1))]);
 }
