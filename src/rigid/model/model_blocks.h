@@ -4,6 +4,7 @@
 #include <abut/types.h>
 
 #include "math/transform.h"
+#include "rigid/model/solid_boundary.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -27,7 +28,8 @@ struct BlocksSolid {
     bool closed = false, solid = false;
     int outward = 0;
     std::vector<std::int8_t> weights;
-    bool has_parity_only = false, may_overlap = false;
+    bool has_parity_only = false;
+    BoundarySearch boundary; ///< of the whole mesh
 
     [[nodiscard]] int weight(std::uint32_t triangle) const {
         return weights.empty() ? outward : weights[triangle];
@@ -76,8 +78,8 @@ private:
 
 /// As examine_solid for a mesh, reading one block after the other.
 ///
-/// Where `memory` is enough for the whole mesh and its examination, the answer is that of
-/// examine_solid. Otherwise triangles are neither dropped nor turned: a mesh with duplicates is not
+/// Where `memory` is enough for the whole mesh, its examination and its boundary, the answer is that of
+/// examine_solid and find_boundary. Otherwise triangles are neither dropped nor turned: a mesh with duplicates is not
 /// closed, and if it has several components, only parity tells the inside, so that shells that
 /// overlap are no union.
 ///

@@ -4,6 +4,7 @@
 #include "core/temporary_file.h"
 #include "mesh/equal_positions.h"
 #include "rigid/model/model_blocks.h"
+#include "rigid/model/model_data.h"
 #include "rigid/model/solid.h"
 
 #include <algorithm>
@@ -82,6 +83,7 @@ public:
         result_.has_parity_only =
             result_.closed && (result_.outward == 0 || result_.component_points.size() > 1);
         result_.solid = result_.closed || result_.outward != 0;
+        result_.boundary.is_known = result_.component_points.size() <= 1;
         return std::move(result_);
     }
 
@@ -244,10 +246,12 @@ private:
     BlocksSolid result_;
 };
 
-/// Bytes for the examination of a mesh in memory, with the mesh: a position for each corner.
+/// Bytes for the examination of a mesh in memory, with the mesh, a position for each corner, and two
+/// models for its boundary.
 std::uint64_t bytes_in_memory(std::uint64_t triangles) {
     return (3 * sizeof(Vec3) + 3 * sizeof(std::uint32_t)) * triangles +
-           most_solid_bytes(triangles, 3 * triangles) + most_examination_bytes(triangles);
+           most_solid_bytes(triangles, 3 * triangles) + most_examination_bytes(triangles) +
+           2 * most_model_bytes(triangles, 3 * triangles);
 }
 
 BlocksSolid examine_in_memory(const ModelBlocks& blocks) {
@@ -273,9 +277,11 @@ BlocksSolid examine_in_memory(const ModelBlocks& blocks) {
         result.component_points.push_back(mesh.positions[mesh.triangles[t][0]]);
     result.closed = solid.closed, result.solid = solid.solid;
     result.outward = solid.outward;
+    if (solid.may_overlap || solid.has_sheets)
+        result.boundary = solid.closed && solid.is_oriented() ? find_boundary(mesh, solid)
+                                                              : BoundarySearch{nullptr, false};
     result.weights = std::move(solid.weights);
     result.has_parity_only = solid.has_parity_only;
-    result.may_overlap = solid.may_overlap || solid.has_sheets;
     return result;
 }
 

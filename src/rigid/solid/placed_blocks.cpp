@@ -146,7 +146,17 @@ std::vector<EdgeFace> PlacedBlocks::faces_around(std::uint32_t triangle, std::si
     return faces;
 }
 
+const PlacedBoundary& PlacedBlocks::placed_boundary() const {
+    if (!boundary_)
+        boundary_.emplace(blocks_.solid().boundary, world_, origin_);
+    return *boundary_;
+}
+
 bool PlacedBlocks::on_surface(const Vec3& point) const {
+    return is_on_triangle(point) && placed_boundary().is_near(point);
+}
+
+bool PlacedBlocks::is_on_triangle(const Vec3& point) const {
     for (std::size_t i = 0; i < size(); ++i)
         if (holds(boxes_[i], point) && placed(i)->placed.on_surface(point))
             return true;
@@ -154,6 +164,8 @@ bool PlacedBlocks::on_surface(const Vec3& point) const {
 }
 
 PlacedBlocks::Nearest PlacedBlocks::nearest(const Vec3& point, const NearestSearch& search) const {
+    if (boundary() != nullptr)
+        return nearest_point(placed_boundary().placed(), point, search);
     Nearest best;
     NearestSearch left = search;
     left.seed = nullptr;
@@ -185,10 +197,14 @@ PlacedBlocks::Nearest PlacedBlocks::nearest(const Vec3& point, const NearestSear
 }
 
 Triangle PlacedBlocks::world_slot(std::uint32_t slot) const {
+    if (boundary() != nullptr)
+        return placed_boundary().placed().world_slot(slot);
     return placed(block_of(slot))->placed.world_slot(slot & kLocalMask);
 }
 
 std::uint32_t PlacedBlocks::triangle_at(std::uint32_t slot) const {
+    if (boundary() != nullptr)
+        return placed_boundary().triangle_at(slot);
     const auto block = placed(block_of(slot));
     return block->block->numbers[block->placed.data().triangle_at(slot & kLocalMask)];
 }
@@ -206,6 +222,14 @@ void PlacedBlocks::for_each_block(const Box3& region,
         if (!visit({block->placed, block->block->numbers, boxes_[i]}))
             return;
     }
+}
+
+void PlacedBlocks::for_each_surface_block(const Box3& region,
+                                          const std::function<bool(const Block&)>& visit) const {
+    if (boundary() == nullptr)
+        for_each_block(region, visit);
+    else
+        visit({placed_boundary().placed(), boundary()->source, box_});
 }
 
 bool PlacedBlocks::bounds_nothing(std::uint32_t triangle) const {

@@ -9,21 +9,8 @@ PlacedSolid::PlacedSolid(const Model& model, const Solid& solid, const Transform
     : model_(model, world_from_model, origin), solid_(solid) {
     const auto& m = model_.world().m;
     mirrored_ = dot(cross({m[0], m[1], m[2]}, {m[3], m[4], m[5]}), {m[6], m[7], m[8]}) < 0;
-    if (solid.may_overlap || solid.has_sheets) {
-        const BoundarySearch& found = model.data().boundary();
-        boundary_ = found.boundary.get();
-        knows_boundary_ = found.is_known;
-    }
-    if (boundary_ != nullptr)
-        placed_boundary_.emplace(boundary_->model, world_from_model, origin);
-}
-
-bool PlacedSolid::is_near_boundary(const Vec3& point) const {
-    // Where faces are cut, the boundary is off by rounding.
-    const double rounding = 0x1p-40 * (model_.reach() + max_abs(model_.middle()));
-    return boundary_ == nullptr ||
-           nearest_point(*placed_boundary_, point, {.bound = 2 * rounding, .enough = rounding})
-                   .distance <= rounding;
+    if (solid.may_overlap || solid.has_sheets)
+        boundary_ = PlacedBoundary(model.data().boundary(), world_from_model, origin);
 }
 
 std::vector<Vec3> PlacedSolid::component_points() const {
@@ -66,7 +53,7 @@ void PlacedSolid::for_each_block(const Box3& /*region*/,
 
 std::optional<int> PlacedSolid::crossings(const Vec3& from, const Vec3& to) const {
     std::optional<int> count =
-        abut::crossings(model_, from, to, boundary_ == nullptr ? kept() : nullptr, solid_.weights);
+        abut::crossings(model_, from, to, boundary() == nullptr ? kept() : nullptr, solid_.weights);
     if (!count || !is_oriented())
         return count;
     const int side = solid_.weights.empty() ? solid_.outward : 1;
@@ -75,10 +62,10 @@ std::optional<int> PlacedSolid::crossings(const Vec3& from, const Vec3& to) cons
 
 void PlacedSolid::for_each_surface_block(const Box3& region,
                                          const std::function<bool(const Block&)>& visit) const {
-    if (boundary_ == nullptr)
+    if (boundary() == nullptr)
         for_each_block(region, visit);
     else
-        visit({*placed_boundary_, boundary_->source, world_box()});
+        visit({boundary_.placed(), boundary()->source, world_box()});
 }
 
 double PlacedSolid::winding(const Vec3& point) const {

@@ -2,6 +2,7 @@
 
 #include "rigid/model/placed_model.h"
 #include "rigid/model/solid.h"
+#include "rigid/solid/placed_boundary.h"
 #include "rigid/solid/world_solid.h"
 
 #include <cstdint>
@@ -46,7 +47,7 @@ public:
     [[nodiscard]] std::vector<EdgeFace> faces_around(std::uint32_t triangle,
                                                      std::size_t edge) const override;
     [[nodiscard]] bool on_surface(const Vec3& point) const override {
-        return model_.on_surface(point) && is_near_boundary(point);
+        return model_.on_surface(point) && boundary_.is_near(point);
     }
     using WorldSolid::nearest;
     [[nodiscard]] Nearest nearest(const Vec3& point, const NearestSearch& search) const override {
@@ -57,15 +58,15 @@ public:
         return surface().world_slot(slot);
     }
     [[nodiscard]] std::uint32_t triangle_at(std::uint32_t slot) const override {
-        const std::uint32_t triangle = surface().data().triangle_at(slot);
-        return boundary_ ? boundary_->source[triangle] : triangle;
+        return boundary() != nullptr ? boundary_.triangle_at(slot)
+                                     : model_.data().triangle_at(slot);
     }
     [[nodiscard]] bool is_mirrored() const override { return mirrored_; }
-    [[nodiscard]] const SolidBoundary* boundary() const override { return boundary_; }
-    [[nodiscard]] bool knows_boundary() const override { return knows_boundary_; }
+    [[nodiscard]] const SolidBoundary* boundary() const override { return boundary_.get(); }
+    [[nodiscard]] bool knows_boundary() const override { return boundary_.is_known(); }
     /// Returns the surface without the faces that lie inside the solid.
     [[nodiscard]] const PlacedModel& surface() const {
-        return placed_boundary_ ? *placed_boundary_ : model_;
+        return boundary() != nullptr ? boundary_.placed() : model_;
     }
     [[nodiscard]] Bounds bounds() const override {
         return {model_.tree_from_world(), model_.world_from_tree(), model_.data().tree().bounds};
@@ -78,7 +79,7 @@ public:
 
 protected:
     [[nodiscard]] bool is_on_inner_face(const Vec3& point) const override {
-        return boundary_ != nullptr && !is_near_boundary(point) && model_.on_surface(point);
+        return !boundary_.is_near(point) && model_.on_surface(point);
     }
     [[nodiscard]] std::optional<int> crossings(const Vec3& from, const Vec3& to) const override;
     [[nodiscard]] double winding(const Vec3& point) const override;
@@ -86,14 +87,10 @@ protected:
 private:
     /// The kept faces are those of surface().
     [[nodiscard]] PreparedFaces* kept() const { return keeps_faces_ ? &faces() : nullptr; }
-    /// Returns whether no boundary lies apart from the surface, or the point is on it to rounding.
-    [[nodiscard]] bool is_near_boundary(const Vec3& point) const;
 
     PlacedModel model_;
     const Solid& solid_;
-    const SolidBoundary* boundary_ = nullptr;
-    bool knows_boundary_ = true;
-    std::optional<PlacedModel> placed_boundary_; ///< if there is a boundary
+    PlacedBoundary boundary_;
     bool mirrored_;
     bool keeps_faces_ = false; ///< for later queries, because only one thread uses this
 };

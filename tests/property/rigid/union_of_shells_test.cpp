@@ -360,7 +360,7 @@ TEST(UnionOfShells, DepthIgnoresFacesInside) {
         ASSERT_NEAR(depth.depth, deepest, 0.01 * deepest + 2 * half);
         beyond_shells += point_off_shells(s.mesh, middle) < 0.9 * deepest ? 1 : 0;
     }
-    EXPECT_GT(inside, many(120) / 10);
+    EXPECT_GT(inside, many(120) / 20);
     EXPECT_GT(beyond_shells, inside / 10);
 }
 
@@ -386,12 +386,70 @@ TEST(UnionOfShells, SheetsDoNotOpenASolid) {
     EXPECT_FALSE(body.placed.contains({7.2, 1, 0.1}));
 }
 
+/// How often a mesh winds around a point, by the sum of its solid angles.
+int winding(const Mesh& mesh, const Vec3& point) {
+    return int(std::lround(winding_number(mesh, point)));
+}
+
+/// Solids that are turned and far away, in one mesh. The ball around a point inside whose radius is the
+/// signed distance lies inside, and ends at the outside.
+TEST(UnionOfShells, TurnedSolids) {
+    Random random(3210);
+    int inside = 0, twice = 0, balls = 0;
+    for (int i = 0; i < many(40); ++i) {
+        SCOPED_TRACE(i);
+        std::vector<Mesh> shells;
+        Mesh mesh;
+        const Vec3 away = random.chance(0.3) ? random.in_cube(1e6) : Vec3{};
+        for (int k = random.integer(2, 4); k > 0; --k) {
+            Mesh shell = random.chance(0.5) ? torus_mesh(1, 0.4, 9, 6) : gear_mesh(4, 0.5, 1, 0.7);
+            shell = transformed(shell, random.pose(0.7));
+            for (Vec3& p : shell.positions)
+                p = p + away;
+            shells.push_back(shell);
+            mesh = joined(mesh, shell);
+        }
+        if (random.chance(0.5))
+            mesh = reversed(mesh);
+        const Model model(mesh);
+        ASSERT_TRUE(model.data().boundary().is_known);
+        const auto is_inside = [&](const Vec3& p) {
+            return std::ranges::any_of(shells, [&](const Mesh& m) { return winding(m, p) > 0; });
+        };
+        for (int k = 0; k < 30; ++k) {
+            const Vec3 p = away + random.in_cube(1.5);
+            if (nearest(model, {}, p).distance < 1e-3)
+                continue;
+            const bool expected = is_inside(p);
+            ASSERT_EQ(contains(model, {}, p).side == Side::inside, expected);
+            inside += expected ? 1 : 0;
+            twice += std::abs(winding(mesh, p)) > 1 ? 1 : 0;
+            if (!expected)
+                continue;
+            const Nearest found = nearest(model, {}, p, {.signed_distance = true});
+            ASSERT_LT(found.distance, 0);
+            const double radius = -found.distance;
+            ASSERT_NEAR(length(found.point - p), radius, 1e-9);
+            for (int n = 0; n < 40; ++n)
+                ASSERT_TRUE(is_inside(p + radius * random.uniform(0, 0.999) * random.direction()));
+            bool any_outside = false; // it may be in a narrow notch
+            for (int n = 0; n < 4000 && !any_outside; ++n)
+                any_outside = !is_inside(found.point + 1e-4 * random.direction());
+            ASSERT_TRUE(any_outside);
+            ++balls;
+        }
+    }
+    EXPECT_GT(inside, many(40));
+    EXPECT_GT(twice, inside / 20);
+    EXPECT_GT(balls, many(40));
+}
+
 /// ConvexPieces of shells that overlap or share faces, and of duplicates: a small box is at distance
 /// 0 if it lies inside, else as far as the cells.
 TEST(UnionOfShells, ConvexPieces) {
     Random random(3209);
     int inside = 0, asked = 0;
-    for (int i = 0; i < many(60); ++i) {
+    for (int i = 0; i < many(150); ++i) {
         SCOPED_TRACE(i);
         Shells s = random_shells(random, random.integer(2, 4));
         if (random.chance(0.3))
@@ -413,8 +471,8 @@ TEST(UnionOfShells, ConvexPieces) {
             ASSERT_NEAR(found, off, 2 * half);
         ASSERT_EQ(collide(pieces, Transform{}, box, Transform{}).meet, is_inside);
     }
-    EXPECT_GT(asked, many(60) / 2);
-    EXPECT_GT(inside, asked / 10);
+    EXPECT_GT(asked, many(150) / 2);
+    EXPECT_GT(inside, asked / 20);
 }
 
 } // namespace
