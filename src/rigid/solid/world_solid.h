@@ -56,8 +56,8 @@ public:
     /// Returns the boundary of the solid where that is not the whole surface (SolidBoundary); else
     /// null.
     [[nodiscard]] virtual const SolidBoundary* boundary() const { return nullptr; }
-    /// Returns whether boundary() tells where faces lie inside the solid: not for meshes in blocks
-    /// whose shells may overlap.
+    /// Returns whether boundary() tells where faces lie inside the solid: not if there are too many
+    /// parts, or if shells may overlap of a mesh in blocks that is too large to examine in memory.
     [[nodiscard]] virtual bool knows_boundary() const = 0;
     /// Returns a vertex of each connected component.
     [[nodiscard]] virtual std::vector<Vec3> component_points() const = 0;
@@ -108,7 +108,7 @@ public:
         const std::uint32_t* seed = nullptr; ///< a slot that is likely near
     };
     /// Returns the nearest point of the surface, if it is nearer than the bound. Faces inside the
-    /// solid do not count, but for those of a mesh in blocks, and of T-junctions (SolidBoundary).
+    /// solid do not count, as far as they are known (boundary()).
     [[nodiscard]] virtual Nearest nearest(const Vec3& point, const NearestSearch& search) const = 0;
     [[nodiscard]] Nearest nearest(const Vec3& point, double bound) const {
         return nearest(point, NearestSearch{.bound = bound});
