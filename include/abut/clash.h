@@ -194,6 +194,9 @@ inline constexpr std::array kLeftOut{
 /// The enumerator's name.
 const char* to_string(LeftOut reason);
 
+/// How many parts that bound no solid a report names.
+inline constexpr std::size_t kNamedSurfaces = 100;
+
 struct ClashReport {
     struct ModelSummary {
         std::string file;
@@ -207,6 +210,15 @@ struct ClashReport {
     struct Frame {
         UpAxis up = UpAxis::y;
         std::string of; ///< that model: the first one (in a store, the one imported first)
+    };
+    /// Parts whose surface bounds no solid: they contain nothing and have no volume.
+    struct Surfaces {
+        struct Named {
+            std::uint32_t model = 0; ///< index of the model
+            std::string id, name, type;
+        };
+        std::uint64_t count = 0;
+        std::vector<Named> first; ///< the first kNamedSurfaces of them, by model and part
     };
     /// The clashes of a matrix, cell by cell.
     struct Matrix {
@@ -227,6 +239,10 @@ struct ClashReport {
     std::vector<ModelSummary> models;
     /// Reasons to doubt the result, one line each: for example, models that share no space.
     std::vector<std::string> warnings;
+    /// Of all parts with triangles, tested or not. In a store, a mesh in several blocks counts if an
+    /// edge is not used by exactly two triangles; one too large for the memory of its import does
+    /// not count.
+    Surfaces surfaces;
     double clearance = 0, touch_tolerance = 0;
     std::uint64_t candidates = 0; ///< part pairs whose boxes are within the clearance on every axis
     std::array<std::uint64_t, 6> counts{}; ///< by ClashKind

@@ -151,7 +151,7 @@ enum class Side : std::uint8_t { outside, inside, on_surface };
 
 /// The method that `contains` used.
 enum class ContainmentMethod : std::uint8_t {
-    crossings, ///< for a closed model: parity of a ray's crossings, exact
+    crossings, ///< for a closed model: a ray's signed crossings, exact
     winding,   ///< for any other model: the winding number, rounded
 };
 
@@ -166,12 +166,14 @@ struct Containment {
 
 /// Returns whether a point lies inside the model, outside, or on its surface.
 ///
-/// For a closed model (every edge is used by exactly two triangles, equal positions merged) parity
-/// decides, whatever the orientation of the triangles: a closed shell inside another is a cavity.
-/// For any other model the winding number decides: the point is inside if its magnitude is at least
-/// 1/2.
+/// A closed model has no border after duplicates and dangling triangles are dropped, equal positions
+/// merged. A point is inside if its shells, each oriented outwards or around a cavity, wind around it
+/// at least once: shells that overlap are a union (docs/solids.md). For any other model the winding
+/// number decides: the point is inside if its magnitude is at least 1/2. If some components are
+/// closed, the number is that of the others, and asked outside of the closed ones.
 ///
-/// Accuracy    on_surface: exact. crossings: exact. winding: to rounding; where the surface has
+/// Accuracy    on_surface: exact; of faces that lie inside the solid, it is inside. crossings: exact.
+///             winding: to rounding; where the surface has
 ///             holes, the answer near them is a convention.
 /// Cost        the first query of a model examines its edges, O(n log n), and keeps the result with
 ///             the model, about 60 bytes a triangle; later queries take no lock. Then one ray; with

@@ -931,6 +931,9 @@ class ClashReport:
     def candidates(self) -> int:
         """pairs of parts whose boxes are near"""
     @property
+    def surfaces(self) -> Surfaces:
+        """Surfaces: the parts that bound no solid, and so contain nothing"""
+    @property
     def left_out(self) -> dict[str, Any]:
         """dict of LeftOut to number of pairs"""
     @property
@@ -2375,6 +2378,27 @@ class ModelPath:
     @property
     def up(self) -> UpAxis | None:
         """UpAxis; None: as the format defines"""
+
+class NamedSurface:
+    """A part of a ClashReport that bounds no solid."""
+    @property
+    def model(self) -> int:
+        """index of its model"""
+    @property
+    def id(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def type(self) -> str: ...
+
+class Surfaces:
+    """The parts of a ClashReport that bound no solid."""
+    @property
+    def count(self) -> int:
+        """number of them"""
+    @property
+    def first(self) -> list[NamedSurface]:
+        """list of NamedSurface: the first 100 of them"""
 
 class ModelSummary:
     """A model of a ClashReport."""

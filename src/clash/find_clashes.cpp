@@ -9,6 +9,7 @@
 #include "clash/part_instances.h"
 #include "clash/report/report_order.h"
 #include "clash/rules/rule_table.h"
+#include "clash/surface_parts.h"
 #include "clash/test_pair.h"
 #include "core/parallel.h"
 #include "core/progress.h"
@@ -126,6 +127,7 @@ private:
     }
 
     void build() {
+        report_.surfaces = surface_parts(models_, parts_);
         std::vector<bool> needed(parts_.meshes.size());
         for (const Candidate& c : candidates_)
             needed[parts_.parts[c.a].mesh] = needed[parts_.parts[c.b].mesh] = true;

@@ -1,30 +1,10 @@
 #include "pieces/pieces_containment.h"
 
-#include "rigid/solid/world_solid.h"
-
-#include <cmath>
+#include "rigid/solid/placed_solid.h"
 
 namespace abut {
 
 namespace {
-
-/// Returns whether the surface winds around a point that is not on it.
-bool winds_around(const PlacedModel& surface, const Vec3& point) {
-    const double off = length(point - surface.middle());
-    if (!(off <= 2 * surface.reach()))
-        return false;
-    const double far = off + 2 * surface.reach();
-    // A segment is undecided with probability almost 0; the limit only ends the loop on absurd
-    // input.
-    for (int k = 1; k < 64; ++k) {
-        // Directions in general position to each other and to all axes.
-        const Vec3 d =
-            normalized_or_zero({std::sin(1.7 * k), std::sin(2.3 * k + 1), std::sin(3.1 * k + 2)});
-        if (const auto count = crossings(surface, point, point + far * d))
-            return *count != 0;
-    }
-    return false;
-}
 
 /// Returns whether a vertex of an inner component may lie in the ball around the outer solid.
 bool may_contain(const ConvexPiecesData& inner, const Transform& world_from_inner,
@@ -42,10 +22,10 @@ std::optional<Vec3> contained(const ConvexPiecesData& inner, const Transform& wo
                               const ConvexPiecesData& outer, const Transform& world_from_outer) {
     if (!may_contain(inner, world_from_inner, outer, world_from_outer))
         return std::nullopt;
-    const PlacedModel surface(outer.model, world_from_outer);
+    const PlacedSolid solid(outer.model, outer.model.data().solid(), world_from_outer);
     for (const std::uint32_t v : inner.components) {
         const Vec3 point = apply(world_from_inner, inner.mesh().positions[v]);
-        if (winds_around(surface, point))
+        if (solid.contains_off_surface(point))
             return point;
     }
     return std::nullopt;

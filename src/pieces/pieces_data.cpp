@@ -69,6 +69,8 @@ void require_outward(const Mesh& mesh, const SurfaceGraph& surface) {
     const std::vector<std::uint32_t> number = vertex_components(mesh, make_topology(mesh));
     std::vector<Component> components(number.size());
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (surface.across[i][0] == kNoEdge)
+            continue; // it bounds nothing
         Component& c = components[number[mesh.triangles[i][0]]];
         const Vec3& origin = mesh.positions[number[mesh.triangles[i][0]]];
         const Triangle t = corners(mesh, i);
@@ -77,8 +79,7 @@ void require_outward(const Mesh& mesh, const SurfaceGraph& surface) {
             c.largest = area, c.triangle = i;
     }
     for (const Component& c : components)
-        if (c.volume < 0 && surface.across[c.triangle][0] != kNoEdge &&
-            !has_inside_below(mesh, c.triangle))
+        if (c.volume < 0 && !has_inside_below(mesh, c.triangle))
             throw Error(ErrorCode::bad_mesh,
                         fmt::format("not a solid: the surface around triangle {} is turned inside "
                                     "out",
@@ -88,7 +89,7 @@ void require_outward(const Mesh& mesh, const SurfaceGraph& surface) {
 } // namespace
 
 ConvexPiecesData::ConvexPiecesData(const Model& solid) : model(solid), id(next_id()) {
-    const SurfaceGraph surface(mesh());
+    const SurfaceGraph surface(mesh(), model.data().solid());
     require_outward(mesh(), surface);
     const Pieces pieces = decompose(model, surface);
     std::vector<std::vector<std::uint32_t>> vertices(pieces.size());

@@ -75,6 +75,23 @@ std::string extremes(const char* title, const ClashReport& report, const std::ve
     return text;
 }
 
+/// Counts the parts that bound no solid, and names some.
+std::string surfaces_text(const ClashReport& report) {
+    const ClashReport::Surfaces& surfaces = report.surfaces;
+    if (surfaces.count == 0)
+        return {};
+    std::string named;
+    const std::size_t count = std::min(kRows, surfaces.first.size());
+    for (std::size_t i = 0; i < count; ++i)
+        named +=
+            (i == 0 ? "" : ", ") +
+            shown(surfaces.first[i].name.empty() ? surfaces.first[i].id : surfaces.first[i].name);
+    return fmt::format("surfaces    {} {} no solid and contain{} nothing: {}{}\n",
+                       grouped(surfaces.count), surfaces.count == 1 ? "part bounds" : "parts bound",
+                       surfaces.count == 1 ? "s" : "", named,
+                       surfaces.count > count ? ", ..." : "");
+}
+
 /// Lists the hard clashes that have the largest volumes in common.
 std::string largest(const ClashReport& report, const std::vector<Scene>& models) {
     std::string text;
@@ -116,6 +133,7 @@ std::string summary(const ClashReport& report, const std::vector<Scene>& models)
         text += fmt::format("  {} {:>9}\n", column, grouped(count));
     }
     text += left_out_text(report);
+    text += surfaces_text(report);
     if (report.statuses) {
         std::string counts;
         for (const ClashStatus status : kClashStatuses)

@@ -166,6 +166,19 @@ void bind_matrix_of_report(py::module_& module) {
 }
 
 void bind_model_summary(py::module_& module) {
+    PlainBinder<ClashReport::Surfaces::Named>(module, "NamedSurface",
+                                              "A part of a ClashReport that bounds no solid.")
+        .field("model", &ClashReport::Surfaces::Named::model, "index of its model")
+        .field("id", &ClashReport::Surfaces::Named::id, "")
+        .field("name", &ClashReport::Surfaces::Named::name, "")
+        .field("type", &ClashReport::Surfaces::Named::type, "")
+        .done();
+    PlainBinder<ClashReport::Surfaces>(module, "Surfaces",
+                                       "The parts of a ClashReport that bound no solid.")
+        .field("count", &ClashReport::Surfaces::count, "number of them")
+        .field("first", &ClashReport::Surfaces::first,
+               "list of NamedSurface: the first 100 of them")
+        .done();
     PlainBinder<ClashReport::ModelSummary>(module, "ModelSummary", "A model of a ClashReport.")
         .field("file", &ClashReport::ModelSummary::file, "")
         .field("parts", &ClashReport::ModelSummary::parts, "")
@@ -245,6 +258,9 @@ void bind_results(py::module_& module) {
         .property(
             "candidates", [](const Report& self) { return self.report.candidates; },
             "pairs of parts whose boxes are near")
+        .property(
+            "surfaces", [](const Report& self) { return self.report.surfaces; },
+            "Surfaces: the parts that bound no solid, and so contain nothing")
         .property("left_out", left_out, "dict of LeftOut to number of pairs")
         .property("neighbours", neighbours, "dict of Neighbours to number of clashes")
         .property(

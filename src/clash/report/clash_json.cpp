@@ -95,6 +95,17 @@ ordered_json json_of(const ClashReport::ModelSummary& model) {
     return row;
 }
 
+ordered_json json_of(const ClashReport::Surfaces& surfaces,
+                     const std::vector<ClashReport::ModelSummary>& models) {
+    ordered_json parts = ordered_json::array();
+    for (const ClashReport::Surfaces::Named& part : surfaces.first)
+        parts.push_back({{"file", models[part.model].file},
+                         {"id", part.id},
+                         {"name", part.name},
+                         {"type", part.type}});
+    return {{"count", surfaces.count}, {"parts", std::move(parts)}};
+}
+
 ordered_json json_of(const ClashReport::Matrix& matrix) {
     ordered_json cells = ordered_json::array();
     for (const ClashReport::Matrix::Cell& cell : matrix.cells) {
@@ -216,6 +227,7 @@ void write_head(JsonLines& out, const ClashReport& report) {
          {"counts", json_counts(report.counts, kClashKinds)},
          {"neighbours", json_counts(report.neighbours, kNeighbours)},
          {"left_out", json_counts(report.left_out, kLeftOut)}});
+    out.member("surfaces", json_of(report.surfaces, report.models));
     if (report.matrix)
         out.member("matrix", json_of(*report.matrix));
     if (report.statuses)

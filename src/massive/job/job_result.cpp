@@ -49,6 +49,7 @@ JobResult::JobResult(JobPlan& plan, const ClashOptions& options, StoreFile& stor
     for (std::string& warning : plan_.rules->warnings())
         report.warnings.push_back(std::move(warning));
     report.left_out = plan_.left_out;
+    report.surfaces = plan_.stored.surfaces;
     OutOfCoreCounters& counters = result_.counters;
     counters.units = plan_.units.size();
     counters.workers.resize(workers);

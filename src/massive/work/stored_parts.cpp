@@ -69,13 +69,13 @@ private:
     std::uint32_t index_ = 0;
 };
 
-} // namespace
-
-StoredParts gather_parts(StoreFile& store, RuleTable* rules) {
-    StoredParts result;
+/// Reads the table of meshes. Returns by mesh whether it bounds no solid.
+std::vector<bool> gather_meshes(StoreFile& store, StoredParts& result) {
     std::vector<MeshRow> large;
+    std::vector<bool> is_surface;
     store.for_each_mesh([&](const MeshRow& mesh) {
         StoredMesh stored{mesh.mesh};
+        is_surface.push_back(mesh.triangles > 0 && mesh.closed == false);
         if (is_whole(mesh.vertices, mesh.triangles)) {
             stored.bytes =
                 static_cast<std::uint32_t>(most_model_bytes(mesh.triangles, mesh.vertices));
@@ -92,6 +92,14 @@ StoredParts gather_parts(StoreFile& store, RuleTable* rules) {
             result.large[i].largest_block = std::max(result.large[i].largest_block, block.bytes);
             result.large[i].bytes += block.bytes;
         }
+    return is_surface;
+}
+
+} // namespace
+
+StoredParts gather_parts(StoreFile& store, RuleTable* rules) {
+    StoredParts result;
+    const std::vector<bool> is_surface = gather_meshes(store, result);
     result.models = store.models();
     // A part's row takes more bytes of the file than kLeastRow. The bound keeps a damaged number of
     // parts from reserving too much memory.
@@ -116,11 +124,13 @@ StoredParts gather_parts(StoreFile& store, RuleTable* rules) {
             if (mesh == result.meshes.end() || mesh->mesh != part.mesh)
                 throw Error(ErrorCode::malformed, store.path(),
                             "is damaged: part " + part.id + " shows a mesh that is missing");
+            const auto number = static_cast<std::uint32_t>(mesh - result.meshes.begin());
+            if (is_surface[number] && result.surfaces.count++ < kNamedSurfaces)
+                result.surfaces.first.push_back({m, part.id, part.name, part.type});
             result.boxes.push_back(part.box);
-            result.parts.push_back(
-                {part.part, static_cast<std::uint32_t>(mesh - result.meshes.begin()), m,
-                 static_cast<std::uint32_t>(
-                     std::min<std::uint64_t>(part.generation, kLastGeneration))});
+            result.parts.push_back({part.part, number, m,
+                                    static_cast<std::uint32_t>(std::min<std::uint64_t>(
+                                        part.generation, kLastGeneration))});
             if (feeder)
                 feeder->add(result.models[m], m, part);
         });

@@ -55,6 +55,7 @@ struct StoredParts {
     std::vector<Box3> boxes;       ///< world boxes, by part
     std::vector<StoredMesh> meshes;
     std::vector<StoredLargeMesh> large; ///< sorted by mesh
+    ClashReport::Surfaces surfaces;     ///< the parts that bound no solid
 
     /// Bytes of these tables and of the lists of blocks that LargeMeshes keeps.
     [[nodiscard]] std::uint64_t bytes() const;

@@ -21,7 +21,7 @@ using Pieces = std::vector<std::vector<std::uint32_t>>;
 /// In          a solid and the graph of its surface.
 /// Accuracy    exact: signs decide what is convex, and that no triangle enters a hull. A single
 ///             triangle is always a piece.
-/// Degenerate  a triangle without area is a piece of its own if it joins no other.
+/// Degenerate  a triangle without area, or one that the solid drops (Solid::weights), is a piece of its own if it joins no other.
 /// Cost        for each triangle: the neighbours of a corner, the faces that its new vertex sees,
 ///             and a search of the tree; sometimes a pass over the hull, whose size is limited. For
 ///             a component that is convex as a whole: O(n log n).

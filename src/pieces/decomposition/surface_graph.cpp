@@ -4,7 +4,9 @@
 
 #include "math/predicates.h"
 #include "mesh/topology.h"
+#include "rigid/model/shell_sets.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace abut {
@@ -20,14 +22,25 @@ namespace {
                     e.triangle, p.x, p.y, p.z, q.x, q.y, q.z, what));
 }
 
+/// Errors      Error{bad_mesh} if the uses of an edge are no pairs in opposite directions.
+void require_closed(const Mesh& mesh, const std::vector<HalfEdge>& uses) {
+    if (uses.size() == 1)
+        fail(mesh, uses[0], "is open: no other triangle uses it");
+    if (uses.size() == 2 && uses[0].from == uses[1].from)
+        fail(mesh, uses[0], "is used twice in one direction: one of its triangles is flipped");
+    const auto up = std::ranges::count_if(uses, [](const HalfEdge& e) { return e.from < e.to; });
+    if (2 * static_cast<std::size_t>(up) != uses.size())
+        fail(mesh, uses[0], "is used by more than two triangles");
+}
+
 bool same_edge(const HalfEdge& e, const HalfEdge& f) {
     return e.lower() == f.lower() && e.upper() == f.upper();
 }
 
 } // namespace
 
-SurfaceGraph::SurfaceGraph(const Mesh& mesh) : positions(mesh.positions) {
-    const Topology topology = make_topology(mesh);
+SurfaceGraph::SurfaceGraph(const Mesh& mesh, const Solid& solid) : positions(mesh.positions) {
+    const Topology& topology = solid.topology;
     const auto& edges = topology.half_edges;
     if (edges.empty())
         throw Error(ErrorCode::bad_mesh, "not a solid: there is no triangle with three corners");
@@ -41,17 +54,16 @@ SurfaceGraph::SurfaceGraph(const Mesh& mesh) : positions(mesh.positions) {
             if (corners[e.triangle][k] == e.from && corners[e.triangle][(k + 1) % 3] == e.to)
                 across[e.triangle][k] = beyond;
     };
-    for (std::size_t i = 0; i < edges.size(); i += 2) {
-        const HalfEdge& e = edges[i];
-        if (i + 1 == edges.size() || !same_edge(e, edges[i + 1]))
-            fail(mesh, e, "is open: no other triangle uses it");
-        const HalfEdge& f = edges[i + 1];
-        if (i + 2 < edges.size() && same_edge(e, edges[i + 2]))
-            fail(mesh, e, "is used by more than two triangles");
-        if (e.from == f.from)
-            fail(mesh, e, "is used twice in one direction: one of its triangles is flipped");
-        set(e, f.triangle);
-        set(f, e.triangle);
+    std::vector<HalfEdge> uses;
+    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+        uses.clear();
+        for (; end < edges.size() && same_edge(edges[begin], edges[end]); ++end)
+            if (!solid.closed || solid.weights.empty() || solid.weights[edges[end].triangle] != 0)
+                uses.push_back(edges[end]);
+        if (!uses.empty())
+            require_closed(mesh, uses);
+        for (const auto& [e, f] : pair_uses(mesh, uses))
+            set(e, f.triangle), set(f, e.triangle);
     }
 }
 

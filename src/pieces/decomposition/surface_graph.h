@@ -4,6 +4,7 @@
 
 #include "math/vector.h"
 #include "mesh/surface_features.h"
+#include "rigid/model/solid.h"
 
 #include <cstdint>
 #include <span>
@@ -16,9 +17,12 @@ namespace abut {
 ///
 /// Refers to the mesh.
 struct SurfaceGraph {
-    /// Errors      Error{bad_mesh} naming an edge: it is not used by exactly two triangles, or by
-    ///             two in the same direction; or no triangle has three different corners.
-    explicit SurfaceGraph(const Mesh& mesh);
+    /// In          solid: of the mesh. The triangles that it drops have no neighbours. Where more
+    ///             than two triangles share an edge, those that enclose matter are neighbours.
+    /// Errors      Error{bad_mesh} naming an edge: it is open, or its triangles run in one
+    ///             direction more often than in the other; or no triangle has three different
+    ///             corners.
+    SurfaceGraph(const Mesh& mesh, const Solid& solid);
 
     [[nodiscard]] Triangle triangle(std::uint32_t t) const {
         const IndexTriangle& c = corners[t];
@@ -30,7 +34,7 @@ struct SurfaceGraph {
     std::span<const Vec3> positions;
     std::vector<IndexTriangle> corners;
     /// across[t][k]: the triangle beyond the edge from corner k; kNoEdge if two corners are one
-    /// vertex.
+    /// vertex, or if the triangle is dropped.
     std::vector<IndexTriangle> across;
 };
 

@@ -4,6 +4,7 @@
 #include <abut/types.h>
 
 #include "math/transform.h"
+#include "rigid/model/solid_boundary.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -20,11 +21,22 @@ struct ModelBlock {
     std::vector<std::uint32_t> numbers; ///< of its triangles in the whole mesh, ascending
 };
 
-/// Whether a mesh in blocks bounds a solid; the fields mean the same as in Solid.
+/// Whether a mesh in blocks bounds a solid; the fields mean the same as in Solid. Triangles go by
+/// their numbers in the whole mesh.
 struct BlocksSolid {
     std::vector<Vec3> component_points; ///< a vertex of each connected component
     bool closed = false, solid = false;
     int outward = 0;
+    std::vector<std::int8_t> weights;
+    bool has_parity_only = false;
+    BoundarySearch boundary; ///< of the whole mesh
+
+    [[nodiscard]] int weight(std::uint32_t triangle) const {
+        return weights.empty() ? outward : weights[triangle];
+    }
+    [[nodiscard]] bool is_oriented() const {
+        return solid && !has_parity_only && (outward != 0 || !weights.empty());
+    }
 };
 
 /// A large mesh as mesh blocks that need not be in memory at the same time. Safe for concurrent
@@ -66,9 +78,14 @@ private:
 
 /// As examine_solid for a mesh, reading one block after the other.
 ///
+/// Where `memory` is enough for the whole mesh, its examination and its boundary, the answer is that of
+/// examine_solid and find_boundary. Otherwise triangles are neither dropped nor turned: a mesh with duplicates is not
+/// closed, and if it has several components, only parity tells the inside, so that shells that
+/// overlap are no union.
+///
 /// Accuracy    closed, components: exact; outward: as examine_solid, to rounding.
-/// Cost        reads each block two to four times. Sorts vertices and edges on disk with `memory`
-///             bytes, plus 4 bytes and a bit for each vertex.
+/// Cost        reads each block two to four times; once if `memory` is enough. Sorts vertices and
+///             edges on disk with `memory` bytes, plus 4 bytes and a bit for each vertex.
 BlocksSolid examine_solid(const ModelBlocks& blocks, const std::string& folder, std::size_t memory);
 
 } // namespace abut

@@ -6,6 +6,7 @@
 
 #include "math/transform.h"
 #include "rigid/model/solid.h"
+#include "rigid/model/solid_boundary.h"
 #include "rigid/model/tree_frame.h"
 #include "tree/obb_tree.h"
 #include "tree/outline.h"
@@ -68,6 +69,8 @@ public:
     }
     /// Tells whether the mesh bounds a solid. The first call examines it.
     [[nodiscard]] const Solid& solid() const { return solid_.of(mesh_); }
+    /// The boundary of the solid, if that is not the whole surface. The first call searches for it.
+    [[nodiscard]] const BoundarySearch& boundary() const { return boundary_.of(mesh_, solid()); }
     [[nodiscard]] std::size_t bytes() const;
 
 private:
@@ -88,6 +91,7 @@ private:
     std::vector<Vec3> vertices_;
     std::vector<std::array<std::uint32_t, 3>> slots_;
     LazySolid solid_;
+    LazyBoundary boundary_;
 };
 
 /// Upper bound on Model::bytes() for this many triangles and vertices, with the overhead of a

@@ -1,6 +1,8 @@
 #include "rigid/model/solid.h"
 
 #include "math/vector.h"
+#include "rigid/model/clean_surface.h"
+#include "rigid/model/shells.h"
 
 #include <algorithm>
 #include <array>
@@ -16,9 +18,11 @@ Triangle triangle(const Mesh& mesh, std::uint32_t i) {
     return {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
 }
 
-std::vector<std::uint32_t> largest_triangles(const Mesh& mesh, std::size_t count) {
+/// Returns the largest of some triangles.
+std::vector<std::uint32_t>
+largest_triangles(const Mesh& mesh, std::span<const std::uint32_t> triangles, std::size_t count) {
     std::vector<std::pair<double, std::uint32_t>> by_area;
-    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
+    for (const std::uint32_t i : triangles)
         by_area.emplace_back(-doubled_area_sq(triangle(mesh, i)), i);
     count = std::min(count, by_area.size());
     std::partial_sort(by_area.begin(), by_area.begin() + static_cast<std::ptrdiff_t>(count),
@@ -29,33 +33,70 @@ std::vector<std::uint32_t> largest_triangles(const Mesh& mesh, std::size_t count
     return result;
 }
 
-int outward_by_winding(const Mesh& mesh) {
+/// Returns how some triangles of a mesh are oriented, if they bound a solid but for T-junctions.
+int outward_by_winding(const Mesh& mesh, std::span<const std::uint32_t> triangles) {
     OutwardVote vote;
-    for (const std::uint32_t i : largest_triangles(mesh, kProbes)) {
+    for (const std::uint32_t i : largest_triangles(mesh, triangles, kProbes)) {
         if (vote.failed())
             break;
         const FaceProbe probe = face_probe(triangle(mesh, i));
-        const double over = winding_number(mesh, probe.over);
+        const double over = winding_number(mesh, triangles, probe.over);
         if (OutwardVote::side(over) == 0)
             return 0;
-        vote.add(over, winding_number(mesh, probe.under));
+        vote.add(over, winding_number(mesh, triangles, probe.under));
     }
     return vote.outward();
 }
 
-/// In: the mesh is closed.
-int outward_by_volume(const Mesh& mesh, const Topology& topology) {
-    const auto& e = topology.half_edges;
-    for (std::size_t i = 0; i < e.size(); i += 2)
-        if (e[i].from == e[i + 1].from)
-            return 0;
-    double volume = 0;
-    const Vec3 origin = mesh.positions[mesh.triangles[0][0]];
-    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-        const Triangle t = triangle(mesh, i);
-        volume += dot(t[0] - origin, cross(t[1] - origin, t[2] - origin));
+/// Takes over how the shells of a closed surface bound the solid.
+void orient(Solid& s, const Mesh& mesh, const std::vector<bool>& dropped) {
+    ShellOrientation shells = orient_shells(mesh, s.topology, dropped);
+    s.outward = shells.outward;
+    s.weights = std::move(shells.weights);
+    s.has_parity_only = shells.has_parity_only;
+    s.may_overlap = shells.may_overlap;
+}
+
+/// Gives the triangles of open components that bound a solid but for T-junctions their weight.
+void add_open(Solid& s, const Mesh& mesh, const std::vector<std::uint32_t>& open, int outward) {
+    s.solid = true;
+    s.closed = false;
+    if (s.weights.empty())
+        s.weights.assign(mesh.triangles.size(), static_cast<std::int8_t>(s.outward));
+    for (const std::uint32_t t : open)
+        s.weights[t] = static_cast<std::int8_t>(outward);
+    const bool any_out = std::ranges::find(s.weights, 1) != s.weights.end(),
+               any_in = std::ranges::find(s.weights, -1) != s.weights.end();
+    s.outward = any_out && any_in ? 0 : outward;
+}
+
+/// Examines a mesh with an edge that is not used by exactly two triangles.
+void examine_faulty(Solid& s, const Mesh& mesh) {
+    const CleanSurface clean = clean_surface(mesh, s.topology);
+    const int outward = outward_by_winding(mesh, clean.open);
+    const bool is_all_open = clean.open.size() == mesh.triangles.size();
+    s.closed = clean.closed;
+    s.solid = s.closed || outward != 0;
+    s.has_sheets = clean.has_sheets;
+    s.copies = clean.copies;
+    if (s.closed)
+        orient(s, mesh, clean.dropped);
+    if (outward == 0) {
+        s.open = s.closed ? clean.open : std::vector<std::uint32_t>();
+    } else if (is_all_open) {
+        s.outward = outward;
+        s.has_sheets = false;
+    } else {
+        add_open(s, mesh, clean.open, outward);
     }
-    return (volume > 0) - (volume < 0);
+}
+
+/// Spreads the bits of a number. Source: splitmix64 [Steele, Lea, Flood 2014].
+std::uint64_t mixed_bits(std::uint64_t x) {
+    x += 0x9e3779b97f4a7c15;
+    x = (x ^ x >> 30U) * 0xbf58476d1ce4e5b9;
+    x = (x ^ x >> 27U) * 0x94d049bb133111eb;
+    return x ^ x >> 31U;
 }
 
 bool is_near(double winding, double integer) {
@@ -77,13 +118,14 @@ FaceProbe face_probe(const Triangle& t) {
 }
 
 int OutwardVote::side(double over) {
-    return is_near(over, 0) ? 1 : is_near(over, -1) ? -1 : 0;
+    const double times = std::round(over);
+    return !is_near(over, times) ? 0 : times >= 0 ? 1 : -1;
 }
 
 void OutwardVote::add(double over, double under) {
     const int here = side(over);
     failed_ = failed_ || here == 0 || (outward_ != 0 && outward_ != here) ||
-              !is_near(under, here > 0 ? 1 : 0);
+              !is_near(under, std::round(over) + 1);
     outward_ = here;
 }
 
@@ -102,13 +144,47 @@ double winding_number(const Mesh& mesh, const Vec3& point) {
     return sum / (2 * std::numbers::pi);
 }
 
+double winding_number(const Mesh& mesh, std::span<const std::uint32_t> triangles,
+                      const Vec3& point) {
+    double sum = 0;
+    for (const std::uint32_t i : triangles)
+        sum += half_solid_angle(triangle(mesh, i), point);
+    return sum / (2 * std::numbers::pi);
+}
+
+double winding_number(const Mesh& mesh, const Solid& solid, const Vec3& point) {
+    double sum = 0;
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
+        if (const int weight = solid.weight(i); weight != 0)
+            sum += weight * half_solid_angle(triangle(mesh, i), point);
+    return sum / (2 * std::numbers::pi);
+}
+
+bool bounds_solid(const Mesh& mesh) {
+    std::uint64_t sum = 0;
+    bool any = false;
+    for (const auto& t : mesh.triangles) {
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+            continue;
+        any = true;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint64_t from = t[k], to = t[(k + 1) % 3];
+            const std::uint64_t hash = mixed_bits(std::min(from, to) << 32U | std::max(from, to));
+            sum += from < to ? hash : -hash;
+        }
+    }
+    return (any && sum == 0) || examine_solid(mesh).solid;
+}
+
 Solid examine_solid(const Mesh& mesh) {
     Solid s;
     s.topology = make_topology(mesh);
     s.components = component_representatives(mesh, s.topology);
-    s.closed = is_closed(s.topology);
-    s.outward = s.closed ? outward_by_volume(mesh, s.topology) : outward_by_winding(mesh);
-    s.solid = s.closed || s.outward != 0;
+    s.closed = s.solid = is_closed(s.topology);
+    if (s.closed)
+        orient(s, mesh, {});
+    else
+        examine_faulty(s, mesh);
     return s;
 }
 

@@ -27,9 +27,12 @@ struct SurfacePart {
     const std::vector<bool>* contained = nullptr; ///< by triangle; if given, `in_contained` selects
     bool in_contained = false; ///< only triangles that are contained, or only the others
     Vec3 origin;               ///< of the points' frame; cells are in world coordinates
+    /// If not empty: by triangle of the searched surface, its number in `contained`.
+    std::span<const std::uint32_t> numbers;
 
     [[nodiscard]] bool takes(std::uint32_t triangle) const {
-        return contained == nullptr || (*contained)[triangle] == in_contained;
+        return contained == nullptr ||
+               (*contained)[numbers.empty() ? triangle : numbers[triangle]] == in_contained;
     }
     [[nodiscard]] bool may_hold(const Vec3& point, double radius) const {
         return cells == nullptr || cells->may_hold(region, point + origin, radius);

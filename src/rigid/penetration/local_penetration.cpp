@@ -61,10 +61,12 @@ DeepestPoint deepest_of(const WorldSolid& surface, const WorldSolid& solid,
                         const DepthSearch& options, double deeper_than) {
     DeepestPoint best;
     best.depth = best.at_most = deeper_than;
-    surface.for_each_block(solid.world_box(), [&](const WorldSolid::Block& block) {
+    surface.for_each_surface_block(solid.world_box(), [&](const WorldSolid::Block& block) {
         const double at_most = best.at_most;
-        DeepestPoint found = find_deepest_point(block.model, solid, in_block(starts, block), part,
-                                                options, best.depth);
+        SurfacePart of_block = part;
+        of_block.numbers = block.numbers;
+        DeepestPoint found = find_deepest_point(block.model, solid, in_block(starts, block),
+                                                of_block, options, best.depth);
         if (found.depth > best.depth) {
             found.surface_triangle = block.number(found.surface_triangle);
             best = found;

@@ -3,6 +3,7 @@
 #include "core/stop.h"
 #include "math/predicates.h"
 #include "rigid/penetration/overlap_crossing.h"
+#include "rigid/penetration/union_volume.h"
 
 #include <algorithm>
 #include <array>
@@ -77,13 +78,15 @@ public:
                 if (!goes_on)
                     return;
                 const std::uint32_t triangle = block.model.data().triangle_at(slot);
+                const std::uint32_t number = block.number(triangle);
+                const int weight = solid_.weight(number);
                 Triangle t = block.model.world_triangle(triangle);
                 for (Vec3& p : t)
                     p = to_local(p);
-                if (solid_.outward() < 0)
+                if (weight < 0)
                     std::swap(t[1], t[2]);
-                if (overlap(bounds_of(t), local))
-                    goes_on = visit(block.number(triangle), t);
+                if (weight != 0 && overlap(bounds_of(t), local))
+                    goes_on = visit(number, t);
             });
             return goes_on;
         });
@@ -372,22 +375,13 @@ double volume_error(const NearSurface& surface, double diagonal, double shift) {
     return in_box * (shift + gaps) + rounding * diagonal;
 }
 
-/// Returns none if the coordinates are so large that a product is beyond the range of numbers.
-std::optional<OverlapVolume> finite_volume(double volume, double error) {
-    if (!std::isfinite(volume) || !std::isfinite(error))
-        return std::nullopt;
-    return OverlapVolume{std::max(volume, 0.0), error};
-}
-
-bool is_oriented_solid(const WorldSolid& solid) {
-    return solid.bounds_solid() && solid.outward() != 0;
-}
-
 } // namespace
 
 std::optional<OverlapVolume> overlap_volume(const WorldSolid& a, const WorldSolid& b) {
-    if (!is_oriented_solid(a) || !is_oriented_solid(b))
+    if (!a.is_oriented() || !b.is_oriented() || !a.knows_boundary() || !b.knows_boundary())
         return std::nullopt;
+    if (a.boundary() != nullptr || b.boundary() != nullptr)
+        return union_overlap_volume(a, b);
     const Box3 box_a = a.world_box(), box_b = b.world_box();
     const Box3 common{max(box_a.lower, box_b.lower), min(box_a.upper, box_b.upper)};
     if (is_empty(common))
@@ -414,8 +408,10 @@ std::optional<OverlapVolume> overlap_volume(const WorldSolid& a, const WorldSoli
 }
 
 std::optional<OverlapVolume> solid_volume(const WorldSolid& solid) {
-    if (!is_oriented_solid(solid))
+    if (!solid.is_oriented() || !solid.knows_boundary())
         return std::nullopt;
+    if (solid.boundary() != nullptr)
+        return union_volume(solid);
     const Box3 box = solid.world_box();
     const double diagonal = length(box.upper - box.lower);
     NearSurface surface(solid, 0.5 * box.lower + 0.5 * box.upper, {});

@@ -17,11 +17,14 @@ struct OverlapVolume {
 /// lie inside the other solid. Where the surfaces cross is decided exactly. So that no face lies
 /// in another one, b is moved by a tiny vector first; the error contains what that changes.
 ///
-/// In          a, b: solids whose orientation is known. Where the surface of a part winds twice
-///             around a region, the region counts twice.
+/// If shells of a solid overlap, union_volume.h has the volume of their union.
+///
+/// In          a, b: solids whose orientation is known. Where one shell passes through itself and
+///             winds twice around a region, the region counts twice.
 /// Out         none if a surface bounds no solid or is not oriented, if the surfaces do not decide
 ///             what is inside, or if more triangles than kMostOverlapTriangles of one surface reach
-///             the other one's box.
+///             the other one's box. None if it is not known whether shells overlap
+///             (WorldSolid::knows_boundary).
 /// Accuracy    |volume - true volume| <= error. Closed surfaces: usually below 1e-9 of the product
 ///             of the common box's diagonal and the area in it. Surfaces with T-junctions: 1e-6 of
 ///             it.
@@ -32,7 +35,8 @@ std::optional<OverlapVolume> overlap_volume(const WorldSolid& a, const WorldSoli
 
 inline constexpr std::size_t kMostOverlapTriangles = 200'000;
 
-/// The volume of a solid: none if the surface bounds no solid or is not oriented.
+/// The volume of a solid, of a union if shells overlap. Out: none if the surface bounds no solid or is
+/// not oriented, or as above.
 std::optional<OverlapVolume> solid_volume(const WorldSolid& solid);
 
 } // namespace abut

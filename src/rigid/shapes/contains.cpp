@@ -18,24 +18,34 @@ public:
 
     [[nodiscard]] Containment operator()(const Vec3& point) const {
         Containment result;
-        const bool closed = placed_.solid().closed;
-        result.method = closed ? ContainmentMethod::crossings : ContainmentMethod::winding;
-        if (placed_.on_surface(point)) {
+        const Solid& solid = placed_.solid();
+        result.method = solid.closed ? ContainmentMethod::crossings : ContainmentMethod::winding;
+        if (placed_.on_surface(point))
             result.side = Side::on_surface;
-        } else if (closed) {
+        else if (solid.closed)
             result.side = placed_.contains_off_surface(point) ? Side::inside : Side::outside;
-        } else {
-            // An affine map moves mesh and point alike; a mirroring one changes the sign of the
-            // number.
-            const double number =
-                winding_number(placed_.model().data().mesh(), apply(model_from_world_, point));
-            result.winding_number = placed_.mirrored() ? -number : number;
-            result.side = std::abs(number) >= 0.5 ? Side::inside : Side::outside;
-        }
+        if (result.side == Side::outside && (!solid.closed || !solid.open.empty()))
+            ask_winding_number(point, result);
         return result;
     }
 
 private:
+    /// Asks the winding number of the triangles that bound no solid, or bound one only but for
+    /// T-junctions.
+    void ask_winding_number(const Vec3& point, Containment& result) const {
+        // An affine map moves mesh and point alike; a mirroring one changes the sign of the number.
+        const Solid& solid = placed_.solid();
+        const Mesh& mesh = placed_.model().data().mesh();
+        const Vec3 in_mesh = apply(model_from_world_, point);
+        const double number = !solid.open.empty()      ? winding_number(mesh, solid.open, in_mesh)
+                              : !solid.weights.empty() ? winding_number(mesh, solid, in_mesh)
+                                                       : winding_number(mesh, in_mesh);
+        const bool turned = placed_.is_mirrored() && (solid.weights.empty() || !solid.open.empty());
+        result.method = ContainmentMethod::winding;
+        result.winding_number = turned ? -number : number;
+        result.side = std::abs(number) >= 0.5 ? Side::inside : Side::outside;
+    }
+
     PlacedSolid placed_;
     Transform model_from_world_;
 };

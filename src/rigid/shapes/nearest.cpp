@@ -67,19 +67,36 @@ public:
 
     [[nodiscard]] Nearest operator()(const Vec3& point) const {
         Nearest result = find_nearest(placed_.model(), point, options_.upper_bound);
-        if (options_.signed_distance && result.distance > 0 && placed_.contains_off_surface(point))
-            result.distance = -result.distance;
+        if (!options_.signed_distance)
+            return result;
+        if (placed_.boundary() != nullptr && placed_.contains(point))
+            result = find_on_boundary(point);
+        else if (result.distance == 0 || !placed_.contains_off_surface(point))
+            return result;
+        result.distance = -result.distance;
         return result;
     }
 
 private:
+    /// The nearest point of the solid's boundary, for a point inside.
+    [[nodiscard]] Nearest find_on_boundary(const Vec3& point) const {
+        Nearest found = find_nearest(placed_.surface(), point, options_.upper_bound);
+        if (found.status != Status::exact)
+            return found;
+        const double distance = found.distance;
+        const Vec3 at = found.point;
+        found = on_triangle(at, placed_.model(), placed_.boundary()->source[found.triangle]);
+        found.distance = distance, found.point = at;
+        return found;
+    }
+
     static const Solid& solid_of(const Model& model, const NearestOptions& options) {
         static const Solid unexamined;
         require_bound(options.upper_bound);
         if (!options.signed_distance)
             return unexamined;
         const Solid& solid = model.data().solid();
-        require(solid.closed, "a signed distance needs a closed model");
+        require(solid.closed && solid.open.empty(), "a signed distance needs a closed model");
         return solid;
     }
 

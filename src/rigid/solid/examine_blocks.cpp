@@ -4,6 +4,7 @@
 #include "core/temporary_file.h"
 #include "mesh/equal_positions.h"
 #include "rigid/model/model_blocks.h"
+#include "rigid/model/model_data.h"
 #include "rigid/model/solid.h"
 
 #include <algorithm>
@@ -79,7 +80,10 @@ public:
         measure();
         if (!result_.closed)
             result_.outward = outward_by_winding();
+        result_.has_parity_only =
+            result_.closed && (result_.outward == 0 || result_.component_points.size() > 1);
         result_.solid = result_.closed || result_.outward != 0;
+        result_.boundary.is_known = result_.component_points.size() <= 1;
         return std::move(result_);
     }
 
@@ -242,10 +246,51 @@ private:
     BlocksSolid result_;
 };
 
+/// Bytes for the examination of a mesh in memory, with the mesh, a position for each corner, and two
+/// models for its boundary.
+std::uint64_t bytes_in_memory(std::uint64_t triangles) {
+    return (3 * sizeof(Vec3) + 3 * sizeof(std::uint32_t)) * triangles +
+           most_solid_bytes(triangles, 3 * triangles) + most_examination_bytes(triangles) +
+           2 * most_model_bytes(triangles, 3 * triangles);
+}
+
+BlocksSolid examine_in_memory(const ModelBlocks& blocks) {
+    Mesh mesh;
+    mesh.triangles.resize(blocks.triangles());
+    for (std::uint32_t i = 0; i < blocks.size(); ++i) {
+        if (is_empty(blocks.box(i)))
+            continue;
+        const auto block = blocks.block(i);
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        const Mesh& part = block->model.mesh();
+        mesh.positions.insert(mesh.positions.end(), part.positions.begin(), part.positions.end());
+        for (std::size_t t = 0; t < part.triangles.size(); ++t) {
+            const auto& v = part.triangles[t];
+            mesh.triangles[block->numbers[t]] = {first + v[0], first + v[1], first + v[2]};
+        }
+    }
+    BlocksSolid result;
+    if (mesh.positions.empty())
+        return result;
+    Solid solid = examine_solid(mesh);
+    for (const std::uint32_t t : solid.components)
+        result.component_points.push_back(mesh.positions[mesh.triangles[t][0]]);
+    result.closed = solid.closed, result.solid = solid.solid;
+    result.outward = solid.outward;
+    if (solid.may_overlap || solid.has_sheets)
+        result.boundary = solid.closed && solid.is_oriented() ? find_boundary(mesh, solid)
+                                                              : BoundarySearch{nullptr, false};
+    result.weights = std::move(solid.weights);
+    result.has_parity_only = solid.has_parity_only;
+    return result;
+}
+
 } // namespace
 
 BlocksSolid examine_solid(const ModelBlocks& blocks, const std::string& folder,
                           std::size_t memory) {
+    if (bytes_in_memory(blocks.triangles()) <= memory)
+        return examine_in_memory(blocks);
     return BlocksExamination(blocks, folder, memory).run();
 }
 

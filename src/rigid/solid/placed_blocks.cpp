@@ -129,7 +129,10 @@ std::vector<EdgeFace> PlacedBlocks::faces_around(std::uint32_t triangle, std::si
         const auto block = placed(i);
         const Mesh& mesh = block->block->model.mesh();
         block->placed.for_each_overlap({at, at}, [&](std::uint32_t slot) {
-            const auto& t = mesh.triangles[block->placed.data().triangle_at(slot)];
+            const std::uint32_t local = block->placed.data().triangle_at(slot);
+            if (bounds_nothing(block->block->numbers[local]))
+                return;
+            const auto& t = mesh.triangles[local];
             const Triangle v{mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
             if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
                 return;
@@ -143,7 +146,17 @@ std::vector<EdgeFace> PlacedBlocks::faces_around(std::uint32_t triangle, std::si
     return faces;
 }
 
+const PlacedBoundary& PlacedBlocks::placed_boundary() const {
+    if (!boundary_)
+        boundary_.emplace(blocks_.solid().boundary, world_, origin_);
+    return *boundary_;
+}
+
 bool PlacedBlocks::on_surface(const Vec3& point) const {
+    return is_on_triangle(point) && placed_boundary().is_near(point);
+}
+
+bool PlacedBlocks::is_on_triangle(const Vec3& point) const {
     for (std::size_t i = 0; i < size(); ++i)
         if (holds(boxes_[i], point) && placed(i)->placed.on_surface(point))
             return true;
@@ -151,6 +164,8 @@ bool PlacedBlocks::on_surface(const Vec3& point) const {
 }
 
 PlacedBlocks::Nearest PlacedBlocks::nearest(const Vec3& point, const NearestSearch& search) const {
+    if (boundary() != nullptr)
+        return nearest_point(placed_boundary().placed(), point, search);
     Nearest best;
     NearestSearch left = search;
     left.seed = nullptr;
@@ -182,10 +197,14 @@ PlacedBlocks::Nearest PlacedBlocks::nearest(const Vec3& point, const NearestSear
 }
 
 Triangle PlacedBlocks::world_slot(std::uint32_t slot) const {
+    if (boundary() != nullptr)
+        return placed_boundary().placed().world_slot(slot);
     return placed(block_of(slot))->placed.world_slot(slot & kLocalMask);
 }
 
 std::uint32_t PlacedBlocks::triangle_at(std::uint32_t slot) const {
+    if (boundary() != nullptr)
+        return placed_boundary().triangle_at(slot);
     const auto block = placed(block_of(slot));
     return block->block->numbers[block->placed.data().triangle_at(slot & kLocalMask)];
 }
@@ -205,17 +224,41 @@ void PlacedBlocks::for_each_block(const Box3& region,
     }
 }
 
+void PlacedBlocks::for_each_surface_block(const Box3& region,
+                                          const std::function<bool(const Block&)>& visit) const {
+    if (boundary() == nullptr)
+        for_each_block(region, visit);
+    else
+        visit({placed_boundary().placed(), boundary()->source, box_});
+}
+
+bool PlacedBlocks::bounds_nothing(std::uint32_t triangle) const {
+    const std::vector<std::int8_t>& weights = blocks_.solid().weights;
+    return !weights.empty() && weights[triangle] == 0;
+}
+
 std::optional<int> PlacedBlocks::crossings(const Vec3& from, const Vec3& to) const {
+    const std::vector<std::int8_t>& weights = blocks_.solid().weights;
+    std::vector<std::int8_t> of_block;
     int sum = 0;
     for (std::size_t i = 0; i < size(); ++i) {
         if (is_empty(boxes_[i]) || !may_meet(from, to, boxes_[i]))
             continue;
-        const std::optional<int> count = abut::crossings(placed(i)->placed, from, to);
+        const auto block = placed(i);
+        of_block.clear();
+        if (!weights.empty())
+            for (const std::uint32_t number : block->block->numbers)
+                of_block.push_back(weights[number]);
+        const std::optional<int> count =
+            abut::crossings(block->placed, from, to, nullptr, of_block);
         if (!count)
             return std::nullopt;
         sum += *count;
     }
-    return sum;
+    if (!is_oriented())
+        return sum;
+    const int side = weights.empty() ? blocks_.solid().outward : 1;
+    return sum * (mirrored_ ? -side : side);
 }
 
 double PlacedBlocks::winding(const Vec3& point) const {
@@ -228,7 +271,8 @@ double PlacedBlocks::winding(const Vec3& point) const {
             continue;
         const auto block = placed(i);
         for (std::uint32_t t = 0; t < block->block->numbers.size(); ++t)
-            sum += half_solid_angle(block->placed.world_triangle(t), point);
+            if (const int times = is_oriented() ? weight(block->block->numbers[t]) : 1; times != 0)
+                sum += times * half_solid_angle(block->placed.world_triangle(t), point);
     }
     return sum / (2 * std::numbers::pi);
 }

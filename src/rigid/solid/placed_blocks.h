@@ -2,6 +2,7 @@
 
 #include "math/transform.h"
 #include "rigid/model/model_blocks.h"
+#include "rigid/solid/placed_boundary.h"
 #include "rigid/solid/world_solid.h"
 
 #include <cstdint>
@@ -46,6 +47,13 @@ public:
     [[nodiscard]] int outward() const override {
         return mirrored_ ? -blocks_.solid().outward : blocks_.solid().outward;
     }
+    [[nodiscard]] int weight(std::uint32_t triangle) const override {
+        return mirrored_ ? -blocks_.solid().weight(triangle) : blocks_.solid().weight(triangle);
+    }
+    [[nodiscard]] bool is_oriented() const override { return blocks_.solid().is_oriented(); }
+    [[nodiscard]] bool is_mirrored() const override { return mirrored_; }
+    [[nodiscard]] const SolidBoundary* boundary() const override { return placed_boundary().get(); }
+    [[nodiscard]] bool knows_boundary() const override { return placed_boundary().is_known(); }
     [[nodiscard]] std::vector<Vec3> component_points() const override;
     [[nodiscard]] Vec3 middle() const override { return middle_; }
     [[nodiscard]] double reach() const override { return reach_; }
@@ -62,8 +70,13 @@ public:
     [[nodiscard]] Bounds bounds() const override;
     void for_each_block(const Box3& region,
                         const std::function<bool(const Block&)>& visit) const override;
+    void for_each_surface_block(const Box3& region,
+                                const std::function<bool(const Block&)>& visit) const override;
 
 protected:
+    [[nodiscard]] bool is_on_inner_face(const Vec3& point) const override {
+        return !placed_boundary().is_near(point) && is_on_triangle(point);
+    }
     [[nodiscard]] std::optional<int> crossings(const Vec3& from, const Vec3& to) const override;
     [[nodiscard]] double winding(const Vec3& point) const override;
 
@@ -81,6 +94,12 @@ private:
         return apply(world_, p) - origin_.value_or(Vec3{});
     }
     [[nodiscard]] std::uint32_t name_of(std::uint32_t triangle) const;
+    /// Returns whether a triangle is dropped from the solid's boundary.
+    [[nodiscard]] bool bounds_nothing(std::uint32_t triangle) const;
+    /// Returns whether a point lies on a triangle. Exact.
+    [[nodiscard]] bool is_on_triangle(const Vec3& point) const;
+    /// The boundary is placed when it is first asked for, because most solids have none.
+    [[nodiscard]] const PlacedBoundary& placed_boundary() const;
 
     const ModelBlocks& blocks_;
     Transform world_;
@@ -93,6 +112,7 @@ private:
     std::vector<std::pair<std::uint32_t, std::uint32_t>> known_;
     mutable std::shared_ptr<const PlacedBlock> last_;
     mutable std::size_t last_index_ = 0;
+    mutable std::optional<PlacedBoundary> boundary_;
 };
 
 } // namespace abut

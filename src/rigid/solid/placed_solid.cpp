@@ -9,6 +9,8 @@ PlacedSolid::PlacedSolid(const Model& model, const Solid& solid, const Transform
     : model_(model, world_from_model, origin), solid_(solid) {
     const auto& m = model_.world().m;
     mirrored_ = dot(cross({m[0], m[1], m[2]}, {m[3], m[4], m[5]}), {m[6], m[7], m[8]}) < 0;
+    if (solid.may_overlap || solid.has_sheets)
+        boundary_ = PlacedBoundary(model.data().boundary(), world_from_model, origin);
 }
 
 std::vector<Vec3> PlacedSolid::component_points() const {
@@ -25,8 +27,9 @@ std::vector<EdgeFace> PlacedSolid::faces_around(std::uint32_t triangle, std::siz
     std::vector<EdgeFace> faces;
     for (const HalfEdge& h :
          topology.edge(topology.vertex_of[t[edge]], topology.vertex_of[t[(edge + 1) % 3]]))
-        faces.push_back(
-            {model_.world_vertex(h.from), model_.world_vertex(h.to), model_.world_vertex(h.apex)});
+        if (solid_.weights.empty() || solid_.weights[h.triangle] != 0)
+            faces.push_back({model_.world_vertex(h.from), model_.world_vertex(h.to),
+                             model_.world_vertex(h.apex)});
     return faces;
 }
 
@@ -48,10 +51,29 @@ void PlacedSolid::for_each_block(const Box3& /*region*/,
     visit({model_, {}, world_box()});
 }
 
+std::optional<int> PlacedSolid::crossings(const Vec3& from, const Vec3& to) const {
+    std::optional<int> count =
+        abut::crossings(model_, from, to, boundary() == nullptr ? kept() : nullptr, solid_.weights);
+    if (!count || !is_oriented())
+        return count;
+    const int side = solid_.weights.empty() ? solid_.outward : 1;
+    return *count * (mirrored_ ? -side : side);
+}
+
+void PlacedSolid::for_each_surface_block(const Box3& region,
+                                         const std::function<bool(const Block&)>& visit) const {
+    if (boundary() == nullptr)
+        for_each_block(region, visit);
+    else
+        visit({boundary_.placed(), boundary()->source, world_box()});
+}
+
 double PlacedSolid::winding(const Vec3& point) const {
-    // The winding number does not change under an affine map that moves the mesh and the point.
-    return winding_number(model_.data().mesh(),
-                          apply(inverse(model_.world()), point + model_.origin()));
+    // The winding number does not change under an affine map that moves the mesh and the point; a
+    // mirroring one turns the boundary, too, so that it still faces outwards.
+    const Vec3 in_mesh = apply(inverse(model_.world()), point + model_.origin());
+    const Mesh& mesh = model_.data().mesh();
+    return is_oriented() ? winding_number(mesh, solid_, in_mesh) : winding_number(mesh, in_mesh);
 }
 
 } // namespace abut

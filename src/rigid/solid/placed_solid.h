@@ -2,6 +2,7 @@
 
 #include "rigid/model/placed_model.h"
 #include "rigid/model/solid.h"
+#include "rigid/solid/placed_boundary.h"
 #include "rigid/solid/world_solid.h"
 
 #include <cstdint>
@@ -21,9 +22,6 @@ public:
 
     [[nodiscard]] const PlacedModel& model() const { return model_; }
     [[nodiscard]] const Solid& solid() const { return solid_; }
-    /// Returns whether the transform mirrors.
-    [[nodiscard]] bool mirrored() const { return mirrored_; }
-
     [[nodiscard]] std::unique_ptr<WorldSolid> seen_from(const Vec3& origin) const override {
         auto seen = std::make_unique<PlacedSolid>(model_.model(), solid_, model_.world(), origin);
         seen->keeps_faces_ = true;
@@ -35,6 +33,10 @@ public:
     [[nodiscard]] int outward() const override {
         return mirrored_ ? -solid_.outward : solid_.outward;
     }
+    [[nodiscard]] int weight(std::uint32_t triangle) const override {
+        return mirrored_ ? -solid_.weight(triangle) : solid_.weight(triangle);
+    }
+    [[nodiscard]] bool is_oriented() const override { return solid_.is_oriented(); }
     [[nodiscard]] std::vector<Vec3> component_points() const override;
     [[nodiscard]] Vec3 middle() const override { return model_.middle(); }
     [[nodiscard]] double reach() const override { return model_.reach(); }
@@ -45,18 +47,26 @@ public:
     [[nodiscard]] std::vector<EdgeFace> faces_around(std::uint32_t triangle,
                                                      std::size_t edge) const override;
     [[nodiscard]] bool on_surface(const Vec3& point) const override {
-        return model_.on_surface(point);
+        return model_.on_surface(point) && boundary_.is_near(point);
     }
     using WorldSolid::nearest;
     [[nodiscard]] Nearest nearest(const Vec3& point, const NearestSearch& search) const override {
-        return nearest_point(model_, point, search, kept());
+        return nearest_point(surface(), point, search, kept());
     }
-    /// A slot is that of the tree.
+    /// A slot is that of the tree of surface().
     [[nodiscard]] Triangle world_slot(std::uint32_t slot) const override {
-        return model_.world_slot(slot);
+        return surface().world_slot(slot);
     }
     [[nodiscard]] std::uint32_t triangle_at(std::uint32_t slot) const override {
-        return model_.data().triangle_at(slot);
+        return boundary() != nullptr ? boundary_.triangle_at(slot)
+                                     : model_.data().triangle_at(slot);
+    }
+    [[nodiscard]] bool is_mirrored() const override { return mirrored_; }
+    [[nodiscard]] const SolidBoundary* boundary() const override { return boundary_.get(); }
+    [[nodiscard]] bool knows_boundary() const override { return boundary_.is_known(); }
+    /// Returns the surface without the faces that lie inside the solid.
+    [[nodiscard]] const PlacedModel& surface() const {
+        return boundary() != nullptr ? boundary_.placed() : model_;
     }
     [[nodiscard]] Bounds bounds() const override {
         return {model_.tree_from_world(), model_.world_from_tree(), model_.data().tree().bounds};
@@ -64,18 +74,23 @@ public:
     /// Visits the model, whatever the region.
     void for_each_block(const Box3& region,
                         const std::function<bool(const Block&)>& visit) const override;
+    void for_each_surface_block(const Box3& region,
+                                const std::function<bool(const Block&)>& visit) const override;
 
 protected:
-    [[nodiscard]] std::optional<int> crossings(const Vec3& from, const Vec3& to) const override {
-        return abut::crossings(model_, from, to, kept());
+    [[nodiscard]] bool is_on_inner_face(const Vec3& point) const override {
+        return !boundary_.is_near(point) && model_.on_surface(point);
     }
+    [[nodiscard]] std::optional<int> crossings(const Vec3& from, const Vec3& to) const override;
     [[nodiscard]] double winding(const Vec3& point) const override;
 
 private:
+    /// The kept faces are those of surface().
     [[nodiscard]] PreparedFaces* kept() const { return keeps_faces_ ? &faces() : nullptr; }
 
     PlacedModel model_;
     const Solid& solid_;
+    PlacedBoundary boundary_;
     bool mirrored_;
     bool keeps_faces_ = false; ///< for later queries, because only one thread uses this
 };

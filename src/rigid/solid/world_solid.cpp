@@ -26,25 +26,36 @@ bool WorldSolid::contains_off_surface(const Vec3& point) const {
     const double off = length(point - middle());
     if (!(off <= 2 * reach()))
         return false;
+    if (is_on_inner_face(point))
+        return true;
     const double far = off + 2 * reach();
     const std::uint32_t wanted = closed() ? 1 : 3;
-    std::uint32_t clear_rays = 0, odd_rays = 0;
+    std::uint32_t clear_rays = 0, inside_rays = 0;
     // A ray is unclear with probability near zero, so only absurd input reaches the limit.
     for (std::uint32_t k = 0; k < 64 && clear_rays < wanted; ++k) {
         const std::optional<int> count = crossings(point, point + far * ray_direction(k));
         clear_rays += count ? 1 : 0;
-        odd_rays += count && *count % 2 != 0 ? 1 : 0;
+        inside_rays += count && is_inside(*count) ? 1 : 0;
     }
-    return 2 * odd_rays > clear_rays;
+    return 2 * inside_rays > clear_rays;
 }
 
 bool WorldSolid::contains_off_surface(const Vec3& point, const Vec3& known, bool inside) const {
     const std::optional<int> count = closed() ? crossings(known, point) : std::nullopt;
-    return count ? (*count % 2 != 0) != inside : contains_off_surface(point);
+    if (!count)
+        return contains_off_surface(point);
+    if (!is_oriented())
+        return (*count % 2 != 0) != inside;
+    // The boundary may wind around a point twice, so a way out of one shell need not lead outside.
+    const bool is_left_or_entered = inside ? *count > 0 : *count < 0;
+    return is_left_or_entered ? contains_off_surface(point) : inside;
 }
 
 bool WorldSolid::winds_around(const Vec3& point) const {
-    return closed() ? contains(point) : std::abs(std::abs(winding(point)) - 1) <= kWindingRounding;
+    if (closed())
+        return contains(point);
+    const double number = is_oriented() ? winding(point) : std::abs(winding(point));
+    return number > 0.5 && std::abs(number - std::round(number)) <= kWindingRounding;
 }
 
 void for_each_block_pair(
@@ -63,10 +74,10 @@ void for_each_block_pair(
 }
 
 std::optional<int> crossings(const PlacedModel& model, const Vec3& from, const Vec3& to,
-                             PreparedFaces* faces) {
+                             PreparedFaces* faces, std::span<const std::int8_t> weights) {
     int count = 0;
     bool clear = true;
-    const auto cross = [&](const Triangle& t, int side_from, int side_to) {
+    const auto cross = [&](std::uint32_t slot, const Triangle& t, int side_from, int side_to) {
         if (side_from * side_to > 0)
             return;
         // A triangle without an area separates nothing, and no sign tells where the segment passes.
@@ -76,18 +87,21 @@ std::optional<int> crossings(const PlacedModel& model, const Vec3& from, const V
                   w = orient3d(from, to, t[2], t[0]);
         if (!((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0)))
             return;
+        const int weight = weights.empty() ? 1 : weights[model.data().triangle_at(slot)];
+        if (weight == 0)
+            return;
         clear = clear && side_from != 0 && side_to != 0 && u != 0 && v != 0 && w != 0;
-        count += side_to;
+        count += weight * side_to;
     };
     if (faces != nullptr)
         model.for_each_on_segment(from, to, [&](std::uint32_t slot) {
             const PreparedTriangle& face = faces->get(slot, [&] { return model.world_slot(slot); });
-            cross(face.corners(), face.side(from), face.side(to));
+            cross(slot, face.corners(), face.side(from), face.side(to));
         });
     else
         model.for_each_on_segment(from, to, [&](std::uint32_t slot) {
             const Triangle t = model.world_slot(slot);
-            cross(t, orient3d(t[0], t[1], t[2], from), orient3d(t[0], t[1], t[2], to));
+            cross(slot, t, orient3d(t[0], t[1], t[2], from), orient3d(t[0], t[1], t[2], to));
         });
     return clear ? std::optional(count) : std::nullopt;
 }

@@ -37,11 +37,28 @@ public:
     /// In          `this` has the world's origin.
     [[nodiscard]] virtual std::unique_ptr<WorldSolid> seen_from(const Vec3& origin) const = 0;
 
-    /// Returns whether every edge is used by exactly two triangles.
+    /// Returns whether the triangles that bound the solid have no border (Solid::closed).
     [[nodiscard]] virtual bool closed() const = 0;
     [[nodiscard]] virtual bool bounds_solid() const = 0;
-    /// Returns +1 if all normals point out, -1 if all point in, else 0.
+    /// Returns +1 if the normals of all triangles that bound the solid point out, -1 if all point
+    /// in, else 0.
     [[nodiscard]] virtual int outward() const = 0;
+    /// Returns +1 if the normal of a triangle points out of the solid, -1 if it points in, 0 if the
+    /// triangle bounds nothing or that is not known.
+    ///
+    /// In          triangle: its number in the whole mesh.
+    [[nodiscard]] virtual int weight(std::uint32_t triangle) const = 0;
+    /// Returns whether weight() is known of all triangles that bound the solid. If not, the parity
+    /// of crossings tells the inside.
+    [[nodiscard]] virtual bool is_oriented() const = 0;
+    /// Returns whether the transform mirrors.
+    [[nodiscard]] virtual bool is_mirrored() const = 0;
+    /// Returns the boundary of the solid where that is not the whole surface (SolidBoundary); else
+    /// null.
+    [[nodiscard]] virtual const SolidBoundary* boundary() const { return nullptr; }
+    /// Returns whether boundary() tells where faces lie inside the solid: not if there are too many
+    /// parts, or if shells may overlap of a mesh in blocks that is too large to examine in memory.
+    [[nodiscard]] virtual bool knows_boundary() const = 0;
     /// Returns a vertex of each connected component.
     [[nodiscard]] virtual std::vector<Vec3> component_points() const = 0;
 
@@ -60,9 +77,11 @@ public:
     [[nodiscard]] virtual std::vector<EdgeFace> faces_around(std::uint32_t triangle,
                                                              std::size_t edge) const = 0;
 
-    /// Returns whether the point lies on the surface. Exact.
+    /// Returns whether the point lies on the surface. Exact; a face that lies inside the solid, as
+    /// where shells overlap, is no part of the surface.
     [[nodiscard]] virtual bool on_surface(const Vec3& point) const = 0;
-    /// Returns whether the point lies strictly inside, by the parity of a ray's crossings.
+    /// Returns whether the point lies strictly inside: off the surface, and the solid's boundary
+    /// winds around it at least once (Solid). A ray's crossings tell how often.
     ///
     /// Accuracy    exact for a closed surface. With T-junctions, the majority of three rays decides.
     [[nodiscard]] bool contains(const Vec3& point) const {
@@ -73,8 +92,8 @@ public:
     /// As above, given the answer for another point off the surface. Fast if that point is near.
     [[nodiscard]] bool contains_off_surface(const Vec3& point, const Vec3& known,
                                             bool inside) const;
-    /// Returns whether the surface encloses the point. If it is not closed, the winding number decides
-    /// (1 to rounding).
+    /// Returns whether the solid contains the point. If the surface is not closed, the winding number
+    /// decides (1 or more, and an integer to rounding).
     [[nodiscard]] bool winds_around(const Vec3& point) const;
 
     struct Nearest {
@@ -88,7 +107,8 @@ public:
         double slack = 0;                    ///< relative error allowed in the distance
         const std::uint32_t* seed = nullptr; ///< a slot that is likely near
     };
-    /// Returns the nearest point of the surface, if it is nearer than the bound.
+    /// Returns the nearest point of the surface, if it is nearer than the bound. Faces inside the
+    /// solid do not count, as far as they are known (boundary()).
     [[nodiscard]] virtual Nearest nearest(const Vec3& point, const NearestSearch& search) const = 0;
     [[nodiscard]] Nearest nearest(const Vec3& point, double bound) const {
         return nearest(point, NearestSearch{.bound = bound});
@@ -124,15 +144,31 @@ public:
     virtual void for_each_block(const Box3& region,
                                 const std::function<bool(const Block&)>& visit) const = 0;
 
+    /// As for_each_block, for the surface without the faces that lie inside its solid: their parts
+    /// outside have the triangle's number.
+    virtual void for_each_surface_block(const Box3& region,
+                                        const std::function<bool(const Block&)>& visit) const {
+        for_each_block(region, visit);
+    }
+
 protected:
-    /// Returns the signed crossings of a segment, as crossings() of one model does.
+    /// Returns whether a point lies on faces inside the solid.
+    [[nodiscard]] virtual bool is_on_inner_face(const Vec3& /*point*/) const { return false; }
+    /// Returns how often the solid's boundary winds around `from`, less around `to`; if it is not
+    /// oriented, crossings() of its triangles. None if that does not tell.
     [[nodiscard]] virtual std::optional<int> crossings(const Vec3& from, const Vec3& to) const = 0;
-    /// Returns the winding number of the surface around a point.
+    /// Returns the winding number of the solid's boundary around a point; if it is not oriented,
+    /// that of the surface.
     [[nodiscard]] virtual double winding(const Vec3& point) const = 0;
 
     [[nodiscard]] PreparedFaces& faces() const { return faces_; }
 
 private:
+    /// Whether a point lies inside, by the crossings on the way from it to a point far outside.
+    [[nodiscard]] bool is_inside(int crossings) const {
+        return !is_oriented() ? crossings % 2 != 0 : crossings >= 1;
+    }
+
     mutable PreparedFaces faces_;
 };
 
@@ -145,9 +181,11 @@ void for_each_block_pair(
 /// How often a model's triangles are crossed from `from` to `to`, along their normals less against
 /// them: none if the segment meets an edge or a vertex, and the count says nothing. Exact.
 ///
-/// In          faces: if given, the model's triangles are kept there for later calls.
+/// In          faces: if given, the model's triangles are kept there for later calls. weights: if
+///             not empty, by triangle: how often it counts (Solid::weights).
 std::optional<int> crossings(const PlacedModel& model, const Vec3& from, const Vec3& to,
-                             PreparedFaces* faces = nullptr);
+                             PreparedFaces* faces = nullptr,
+                             std::span<const std::int8_t> weights = {});
 /// The nearest point of one model. `faces`: as above.
 WorldSolid::Nearest nearest_point(const PlacedModel& model, const Vec3& point,
                                   const WorldSolid::NearestSearch& search,

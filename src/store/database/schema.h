@@ -43,6 +43,8 @@ struct MeshRow {
     std::int64_t first_block = 0;
     std::uint64_t blocks = 0;
     std::uint64_t raw_bytes = 0, stored_bytes = 0;
+    /// The mesh bounds a solid. Of a mesh of several blocks: every edge is used by two triangles. None
+    /// if the mesh was too large for the memory of the import.
     std::optional<bool> closed;
     Box3 box; ///< of the vertices that triangles use
 

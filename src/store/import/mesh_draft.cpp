@@ -6,6 +6,7 @@
 #include "math/vector.h"
 #include "mesh/topology.h"
 #include "mesh/used_positions.h"
+#include "rigid/model/solid.h"
 #include "store/import/cut_mesh.h"
 
 #include <algorithm>
@@ -34,7 +35,8 @@ MeshDraft load_mesh(const SceneSource& source, std::uint32_t number) {
         mesh.positions.size(), hash_128(std::as_bytes(std::span<const Vec3>(mesh.positions))),
         mesh.triangles.size(),
         hash_128(std::as_bytes(std::span<const std::array<std::uint32_t, 3>>(mesh.triangles))));
-    draft.closed = is_closed_joined(mesh);
+    draft.closed = is_whole(mesh.positions.size(), mesh.triangles.size()) ? bounds_solid(mesh)
+                                                                          : is_closed_joined(mesh);
     draft.box = world_box(UsedPositions(mesh).get(), Transform());
     return draft;
 }

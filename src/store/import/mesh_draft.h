@@ -24,6 +24,7 @@ struct BlockDraft {
 struct MeshDraft {
     Mesh mesh;
     Hash128 hash;
+    /// It bounds a solid; of a mesh that is cut into blocks, whether it is closed.
     std::optional<bool> closed;
     Box3 box;
 };

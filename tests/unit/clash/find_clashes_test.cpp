@@ -91,6 +91,50 @@ TEST(FindClashes, Contained) {
                                  box_mesh({3, 0.25, 0.25}, {3.5, 0.5, 0.5}))));
 }
 
+/// A part whose shells overlap is their union: what lies across a face inside is contained.
+TEST(FindClashes, ContainedInTheUnionOfShells) {
+    const Mesh shells =
+        joined(box_mesh({0, 0, 0}, {1, 0.8, 0.6}), box_mesh({0.5, 0, 0}, {1.5, 0.8, 0.6}));
+    for (const double x : {0.2, 0.45, 0.5, 0.7, 0.95}) {
+        const auto clash = clash_of(shells, box_mesh({x, 0.35, 0.25}, {x + 0.1, 0.43, 0.31}));
+        ASSERT_TRUE(clash) << x;
+        EXPECT_EQ(clash->kind, ClashKind::contained) << x;
+        EXPECT_NEAR(clash->distance, x < 0.25 ? -x : -0.25, 1e-12) << x;
+        EXPECT_NEAR(clash->volume, 0.1 * 0.08 * 0.06, 1e-9) << x;
+    }
+    // Across the boundary, it is hard, with the volume of the union.
+    const auto hard = clash_of(shells, box_mesh({0.6, 0.2, 0.5}, {0.9, 0.4, 0.7}));
+    ASSERT_TRUE(hard);
+    EXPECT_EQ(hard->kind, ClashKind::hard);
+    EXPECT_NEAR(hard->distance, -0.1, 2e-3);
+    EXPECT_NEAR(hard->volume, 0.3 * 0.2 * 0.1, 1e-9);
+}
+
+/// A triangle too many does not open a solid, and parts that are open are counted by name.
+TEST(FindClashes, SolidsWithFaultsContain) {
+    Mesh copy = kBox, flap = kBox;
+    copy.triangles.push_back(copy.triangles[3]);
+    flap.positions.push_back({-1, 0, -1});
+    flap.triangles.push_back({0, 1, 8});
+    const Mesh inner = box_mesh({0.25, 0.25, 0.25}, {0.5, 0.5, 0.5});
+    for (const Mesh& outer : {copy, flap}) {
+        const auto clash = clash_of(outer, inner);
+        ASSERT_TRUE(clash);
+        EXPECT_EQ(clash->kind, ClashKind::contained);
+        EXPECT_NEAR(clash->distance, -0.25, 1e-12);
+    }
+    Scene scene = scene_of("a", open_box_mesh({0, 0, 0}, {1, 1, 1}));
+    add(scene, "flap", flap);
+    add(scene, "sheet", {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}});
+    add(scene, "empty", {});
+    const ClashReport report = find_clashes({scene}, {});
+    EXPECT_EQ(report.surfaces.count, 2U);
+    ASSERT_EQ(report.surfaces.first.size(), 2U);
+    EXPECT_EQ(report.surfaces.first[0].id, "a-part");
+    EXPECT_EQ(report.surfaces.first[1].name, "name of sheet");
+    EXPECT_NE(to_json(report, {scene}).find("\"surfaces\":{\"count\":2"), std::string::npos);
+}
+
 TEST(FindClashes, Duplicate) {
     Mesh turned = kBox; // other order of triangles and vertices, other orientation
     std::reverse(turned.triangles.begin(), turned.triangles.end());

@@ -175,11 +175,20 @@ TEST(ConvexPieces, MeshesThatAreNoSolidsAreRefused) {
     expect_error(flipped, "flipped");
     expect_error({}, "no triangle");
     expect_error({cube.positions, {{0, 0, 1}, {2, 2, 2}}}, "no triangle");
-    expect_error(cells_mesh(2, [](int x, int y, int /*z*/) { return x == y; }),
-                 "more than two triangles");
+    // A wall between two rooms: which of the three surfaces at its edges is none too many?
+    Mesh rooms = joined(cube, box_mesh({1, 0, 0}, {2, 1, 1}));
+    rooms.triangles.erase(rooms.triangles.begin() + 10, rooms.triangles.begin() + 12);
+    expect_error(rooms, "more than two triangles");
     Mesh bad = cube;
     bad.positions[3].y = kNaN;
     expect_error(bad, "finite");
+}
+
+TEST(ConvexPieces, ShellsMayShareEdges) {
+    const ConvexPieces diagonal =
+        pieces(cells_mesh(2, [](int x, int y, int /*z*/) { return x == y; }));
+    EXPECT_EQ(distance_of(diagonal, box({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75})), 0);
+    EXPECT_DOUBLE_EQ(distance_of(diagonal, box({1.25, 0.25, 0.25}, {1.75, 0.75, 0.75})), 0.25);
 }
 
 TEST(ConvexPieces, BadArgumentsAreRefused) {

@@ -271,10 +271,39 @@ TEST(Contains, OpenSurfacesByWindingNumber) {
                 1e-12);
     EXPECT_EQ(contains(open, Pose{}, {0.5, 0.5, 1.25}).side, Side::outside);
     EXPECT_EQ(contains(open, Pose{}, {0, 0.5, 0.5}).side, Side::on_surface);
-    // Two boxes that share an edge: four triangles use it, so the surface is not closed.
+    // Beside a closed box, the open one is asked outside of it only.
+    const Model beside(joined(open_box_mesh({0, 0, 0}, {1, 1, 1}), box_mesh({5, 0, 0}, {6, 1, 1})));
+    EXPECT_EQ(contains(beside, Pose{}, {5.5, 0.5, 0.5}).method, ContainmentMethod::crossings);
+    EXPECT_EQ(contains(beside, Pose{}, {5.5, 0.5, 0.5}).side, Side::inside);
+    EXPECT_NEAR(contains(beside, Pose{}, {0.5, 0.5, 0.5}).winding_number, 5.0 / 6, 1e-12);
+    EXPECT_EQ(contains(beside, Pose{}, {0.5, 0.5, 0.25}).side, Side::inside);
+    EXPECT_THROW((void)nearest(beside, Pose{}, {5.5, 0.5, 0.5}, {.signed_distance = true}), Error);
+}
+
+/// Four triangles use the edge that two boxes share. Each of them is a shell.
+TEST(Contains, ShellsThatShareAnEdgeAreClosed) {
     const Model pair(joined(box_mesh({0, 0, 0}, {1, 1, 1}), box_mesh({1, 1, 0}, {2, 2, 1})));
-    EXPECT_NEAR(contains(pair, Pose{}, {0.5, 0.5, 0.5}).winding_number, 1, 1e-12);
-    EXPECT_NEAR(contains(pair, Pose{}, {1.5, 0.5, 0.5}).winding_number, 0, 1e-12);
+    for (const auto& [point, side] : {std::pair(Vec3{0.5, 0.5, 0.5}, Side::inside),
+                                      std::pair(Vec3{1.5, 1.5, 0.5}, Side::inside),
+                                      std::pair(Vec3{1.5, 0.5, 0.5}, Side::outside)}) {
+        EXPECT_EQ(contains(pair, Pose{}, point).side, side);
+        EXPECT_EQ(contains(pair, Pose{}, point).method, ContainmentMethod::crossings);
+    }
+}
+
+/// Two boxes that overlap by half, as one mesh: what both fill is inside, and its faces within are
+/// no boundary.
+TEST(Contains, ShellsThatOverlapAreAUnion) {
+    const Model pair(
+        joined(box_mesh({0, 0, 0}, {1, 0.8, 0.6}), box_mesh({0.5, 0, 0}, {1.5, 0.8, 0.6})));
+    for (const Vec3& point : {Vec3{0.25, 0.4, 0.3}, Vec3{0.75, 0.4, 0.3}, Vec3{1.25, 0.4, 0.3},
+                              Vec3{0.5, 0.4, 0.3}, Vec3{1, 0.4, 0.3}})
+        EXPECT_EQ(contains(pair, Pose{}, point).side, Side::inside) << point.x;
+    EXPECT_EQ(contains(pair, Pose{}, {0.75, 0.4, 0}).side, Side::on_surface);
+    EXPECT_EQ(contains(pair, Pose{}, {1.6, 0.4, 0.3}).side, Side::outside);
+    EXPECT_NEAR(nearest(pair, Pose{}, {0.5, 0.4, 0.3}, {.signed_distance = true}).distance, -0.3,
+                1e-15);
+    EXPECT_EQ(nearest(pair, Pose{}, {0.5, 0.4, 0.3}).distance, 0); // without a sign: all triangles
 }
 
 TEST(Contains, AnyThreadMayAskFirst) {

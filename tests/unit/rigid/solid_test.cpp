@@ -40,6 +40,48 @@ TEST(ExamineSolid, ClosedOpenTurnedAndInconsistent) {
     EXPECT_EQ(examine_solid(joined(box, box_mesh({5, 5, 5}, {6, 6, 6}))).components.size(), 2U);
 }
 
+/// One more triangle, of any kind, leaves a box the same solid.
+TEST(ExamineSolid, ATriangleTooManyChangesNothing) {
+    const Mesh box = box_mesh({0, 0, 0}, {1, 1, 1});
+    Mesh copy = box, reversed_copy = box, collapsed = box, flap = box, all = box;
+    copy.triangles.push_back(box.triangles[0]);
+    reversed_copy.triangles.push_back({3, 2, 0});
+    collapsed.triangles.push_back({0, 0, 4});
+    flap.positions.push_back({-1, 0, -1});
+    flap.triangles.push_back({0, 1, 8});
+    all = joined(box, box);
+    for (const Mesh& mesh : {copy, reversed_copy, collapsed, flap, all}) {
+        const Body body(mesh);
+        EXPECT_TRUE(body.solid.closed);
+        EXPECT_TRUE(body.solid.solid);
+        EXPECT_EQ(body.solid.outward, 1);
+        EXPECT_TRUE(body.placed.contains({0.5, 0.5, 0.5}));
+        EXPECT_TRUE(body.placed.winds_around({0.5, 0.5, 0.5}));
+        EXPECT_FALSE(body.placed.contains({-0.25, 0.5, 0.5}));
+        EXPECT_TRUE(bounds_solid(mesh));
+        EXPECT_EQ(meeting(body, Body(box_mesh({0.5, 0.25, 0.25}, {2, 0.75, 0.75}))).go_in, true);
+    }
+    EXPECT_FALSE(bounds_solid(open_box_mesh({0, 0, 0}, {1, 1, 1})));
+}
+
+/// Which way a shell faces tells a cavity, unless the orientation makes no sense.
+TEST(ExamineSolid, NestedShells) {
+    const Mesh outer = box_mesh({0, 0, 0}, {5, 5, 5}), inner = box_mesh({1, 1, 1}, {2, 2, 2}),
+               beside = box_mesh({7, 0, 0}, {8, 1, 1});
+    const Vec3 in_inner{1.5, 1.5, 1.5};
+    EXPECT_TRUE(Body(joined(outer, inner)).placed.contains(in_inner));
+    EXPECT_FALSE(Body(joined(outer, reversed(inner))).placed.contains(in_inner));
+    EXPECT_FALSE(Body(joined(reversed(outer), inner)).placed.contains(in_inner));
+    EXPECT_TRUE(Body(joined(reversed(outer), reversed(inner))).placed.contains(in_inner));
+    // The box beside faces inwards, so nothing can be told from how shells face.
+    const Body mixed(joined(joined(outer, inner), reversed(beside)));
+    EXPECT_FALSE(mixed.placed.contains(in_inner));
+    EXPECT_TRUE(mixed.placed.contains({7.5, 0.5, 0.5}));
+    EXPECT_TRUE(mixed.placed.contains({3, 3, 3}));
+    EXPECT_EQ(mixed.solid.outward, 0);
+    EXPECT_TRUE(mixed.placed.is_oriented());
+}
+
 TEST(ExamineSolid, ABoxWithTJunctionsIsASolidByItsWindingNumber) {
     const Mesh box = t_junction_box();
     EXPECT_FALSE(examine_solid(box).closed);

@@ -45,6 +45,15 @@ const NOTES = [
   ['open', 'parts have a surface that is not closed where a solid is meant'],
 ];
 
+/** Says in one text, if any, which parts bound no solid. */
+function surfacesInWords({ count: all = 0, parts = [] } = {}) {
+  if (all === 0) return [];
+  const named = parts.map((part) => part.name || part.id).join(', ');
+  const words = all === 1 ? '1 part bounds no solid and contains nothing' :
+    `${wholeNumber.format(all)} parts bound no solid and contain nothing`;
+  return [`${words}: ${named}${all > parts.length ? ', …' : ''}`];
+}
+
 function showSummary() {
   const names = report.models.map((model) => baseName(model.file));
   byId('subject').textContent = names.join('  ·  ');
@@ -69,6 +78,7 @@ function showSummary() {
     ...[['Pairs left out', countsInWords(report.left_out, LEFT_OUT)], ['Known neighbours that clash', countsInWords(neighbourCounts(), {})]]
       .filter(([, words]) => words !== '').map(([title, words]) => fact(title, words, 'wide')),
     ...report.warnings.map((warning) => fact('Warning', warning, 'wide')),
+    ...surfacesInWords(report.surfaces).map((words) => fact('Surfaces', words, 'wide')),
     ...report.models.flatMap((model) => NOTES.map(([kind, words]) => {
       const ids = (model.notes ?? []).filter((note) => note.kind === kind).map((note) => note.id);
       return ids.length > 0 && fact(baseName(model.file), `${wholeNumber.format(ids.length)} ${words}: ${ids.join(', ')}`, 'wide');

@@ -1,0 +1,304 @@
+#include "rigid/model/face_fragments.h"
+
+#include "core/disjoint_sets.h"
+#include "core/stop.h"
+#include "geometry/ray_triangle_intersect.h"
+#include "geometry/triangle_triangle_intersect.h"
+#include "math/predicates.h"
+#include "mesh/topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace abut {
+
+namespace {
+
+/// Parts narrower than this share of the solids' size are not cut off: far above the rounding of
+/// the points where faces meet.
+constexpr double kNarrowest = 0x1p-40;
+/// Fragments for each triangle, on average, and at least: more than any model of things has.
+constexpr std::size_t kFragmentsPerTriangle = 64, kLeastBudget = 100'000;
+
+Vec3 mean(std::span<const Vec3> points) {
+    Vec3 sum;
+    for (const Vec3& p : points)
+        sum = sum + p;
+    return (1.0 / static_cast<double>(points.size())) * sum;
+}
+
+/// The centroid of a convex polygon.
+Vec3 centroid_of(std::span<const Vec3> polygon) {
+    Vec3 sum;
+    double area = 0;
+    for (std::size_t i = 2; i < polygon.size(); ++i) {
+        const double part = length(cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]));
+        area += part;
+        sum = sum + part * ((polygon[i - 1] - polygon[0]) + (polygon[i] - polygon[0]));
+    }
+    return area > 0 ? polygon[0] + (1 / (3 * area)) * sum : mean(polygon);
+}
+
+/// Where a segment passes the plane of a triangle; the heights have different signs, or one is 0.
+Vec3 at_plane(const Vec3& p, double height_p, const Vec3& q, double height_q) {
+    const double drop = height_p - height_q;
+    return drop == 0 ? p : p + std::clamp(height_p / drop, 0.0, 1.0) * (q - p);
+}
+
+} // namespace
+
+FaceFragments::FaceFragments(Mesh mesh, std::vector<Face> faces)
+    : placed_(Model(std::move(mesh)), {}), faces_(std::move(faces)),
+      tolerance_(kNarrowest * (2 * placed_.reach() + max_abs(placed_.middle()))),
+      meets_(faces_.size()),
+      budget_(std::max(kFragmentsPerTriangle * faces_.size(), kLeastBudget)) {
+    find_meetings();
+    join_neighbours();
+}
+
+/// Whether two triangles share more points than their common vertices and the edges between these.
+bool FaceFragments::meets(std::uint32_t f, std::uint32_t g) const {
+    const Triangle tf = corners(f), tg = corners(g);
+    std::array<bool, 3> of_f{}, of_g{}; // common corners
+    int common = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+            if (tf[i] == tg[j])
+                of_f.at(i) = of_g.at(j) = true, ++common;
+    if (f == g || collinear(tg[0], tg[1], tg[2]))
+        return false;
+    if (common == 0)
+        return triangle_triangle_intersect(tf, tg) != TriangleContact::none;
+    const auto other = [](const std::array<bool, 3>& is_common, bool which) {
+        return static_cast<std::size_t>(std::ranges::find(is_common, which) - is_common.begin());
+    };
+    if (common == 1) {
+        // What they share begins at the common corner, and ends at the edge opposite to it of one.
+        const std::size_t i = other(of_f, true), j = other(of_g, true);
+        return segment_triangle_intersect(tf[(i + 1) % 3], tf[(i + 2) % 3], tg) ||
+               segment_triangle_intersect(tg[(j + 1) % 3], tg[(j + 2) % 3], tf);
+    }
+    if (common == 3)
+        return true;
+    // Folded onto each other around the common edge.
+    const Vec3 &p = tf[other(of_f, false)], &q = tg[other(of_g, false)];
+    if (orient3d(tf[0], tf[1], tf[2], q) != 0)
+        return false;
+    const std::size_t i = other(of_f, false);
+    const Vec3 &e0 = tf[(i + 1) % 3], &e1 = tf[(i + 2) % 3];
+    const int axis = projection_axis(tf);
+    return orient2d(e0, e1, p, axis) == orient2d(e0, e1, q, axis);
+}
+
+void FaceFragments::find_meetings() {
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+        poll_stop();
+        const Triangle t = corners(f);
+        if (collinear(t[0], t[1], t[2]))
+            continue;
+        const Box3 box{min(t[0], min(t[1], t[2])), max(t[0], max(t[1], t[2]))};
+        placed_.for_each_overlap(box, [&](std::uint32_t slot) {
+            const std::uint32_t g = placed_.data().triangle_at(slot);
+            if (meets(f, g))
+                meets_[f].push_back(g);
+        });
+        std::ranges::sort(meets_[f]);
+    }
+}
+
+/// Groups triangles that meet none, and are connected by edges of two of them.
+void FaceFragments::join_neighbours() {
+    DisjointSets sets(faces_.size());
+    const Topology topology = make_topology(mesh());
+    const std::vector<HalfEdge>& e = topology.half_edges;
+    for (std::size_t begin = 0, end = 0; begin < e.size(); begin = end) {
+        end = begin + topology.edge(e[begin].from, e[begin].to).size();
+        if (end - begin == 2 && meets_[e[begin].triangle].empty() &&
+            meets_[e[begin + 1].triangle].empty() && e[begin].from == e[begin + 1].to)
+            sets.unite(e[begin].triangle, e[begin + 1].triangle);
+    }
+    group_ = std::move(sets).roots();
+}
+
+/// Adds the segments in which g meets the plane of f.
+void FaceFragments::add_cuts(const Triangle& f, const Triangle& g, std::vector<Cut>& cuts) const {
+    const Vec3 normal = normalized_or_zero(cross(f[1] - f[0], f[2] - f[0]));
+    std::array<int, 3> side{};
+    std::array<double, 3> height{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        side.at(i) = orient3d(f[0], f[1], f[2], g[i]);
+        height.at(i) = side.at(i) == 0 ? 0 : dot(normal, g[i] - f[0]);
+    }
+    if (side == std::array<int, 3>{}) {
+        for (std::size_t i = 0; i < 3; ++i)
+            cuts.push_back({g[i], g[(i + 1) % 3]});
+        return;
+    }
+    std::vector<Vec3> ends;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
+        if (side.at(i) == 0)
+            ends.push_back(g[i]);
+        if (side.at(i) * side.at(j) < 0)
+            ends.push_back(at_plane(g[i], height.at(i), g[j], height.at(j)));
+    }
+    if (ends.size() == 2)
+        cuts.push_back({ends[0], ends[1]});
+}
+
+/// Splits a polygon by the line of a cut, if the cut passes through it. Returns whether it did.
+bool FaceFragments::split(const Polygon& polygon, const Vec3& normal, const Cut& cut,
+                          std::vector<Polygon>& parts) const {
+    const Vec3 along = cut.to - cut.from;
+    const double reach = length(along);
+    if (!(reach > tolerance_))
+        return false;
+    const Vec3 direction = (1 / reach) * along, across = cross(normal, direction);
+    std::vector<double> height;
+    for (const Vec3& p : polygon)
+        height.push_back(dot(across, p - cut.from));
+    if (*std::ranges::max_element(height) <= tolerance_ ||
+        *std::ranges::min_element(height) >= -tolerance_)
+        return false;
+    Polygon left, right;
+    double first = HUGE_VAL, last = -HUGE_VAL;
+    const auto add_to_both = [&](const Vec3& p) {
+        left.push_back(p), right.push_back(p);
+        first = std::min(first, dot(direction, p - cut.from));
+        last = std::max(last, dot(direction, p - cut.from));
+    };
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const std::size_t j = (i + 1) % polygon.size();
+        if (std::abs(height[i]) <= tolerance_)
+            add_to_both(polygon[i]);
+        else
+            (height[i] > 0 ? left : right).push_back(polygon[i]);
+        if (height[i] * height[j] < 0 && std::abs(height[i]) > tolerance_ &&
+            std::abs(height[j]) > tolerance_)
+            add_to_both(at_plane(polygon[i], height[i], polygon[j], height[j]));
+    }
+    if (std::min(last, reach) - std::max(first, 0.0) <= tolerance_ || left.size() < 3 ||
+        right.size() < 3)
+        return false;
+    parts.push_back(std::move(left)), parts.push_back(std::move(right));
+    return true;
+}
+
+std::vector<FaceFragments::Polygon> FaceFragments::cut(std::uint32_t f) const {
+    const Triangle t = corners(f);
+    const Vec3 normal = normalized_or_zero(cross(t[1] - t[0], t[2] - t[0]));
+    std::vector<Cut> cuts;
+    for (const std::uint32_t g : meets_[f])
+        add_cuts(t, corners(g), cuts);
+    std::vector<Polygon> polygons{{t[0], t[1], t[2]}};
+    for (const Cut& c : cuts) {
+        std::vector<Polygon> next;
+        for (Polygon& polygon : polygons)
+            if (!split(polygon, normal, c, next))
+                next.push_back(std::move(polygon));
+        polygons = std::move(next);
+        if (polygons.size() > budget_)
+            break;
+    }
+    return polygons;
+}
+
+/// The sides of a triangle where a ray passes it; none if the ray misses it, or meets the border or
+/// the plane of one.
+std::optional<FaceFragments::Sides> FaceFragments::sides_along(std::uint32_t f, const Ray& ray,
+                                                               const Vec3& end) const {
+    const Triangle at = corners(f);
+    const auto hit_f = ray_triangle_intersect(ray, at);
+    if (!hit_f || hit_f->side == 0)
+        return std::nullopt;
+    const double error = 0x1p-48 * (magnitude(ray.origin) + magnitude(end));
+    const auto segment = placed_.tree_segment(ray.origin, end, error);
+    if (!segment)
+        return std::nullopt;
+    Sides result;
+    bool clear = true, met_f = false;
+    // From where the stored normal of f points: the ray comes from there, or goes there.
+    std::array<int, 2> ahead{}, from_here{};
+    abut::for_each_on_segment(placed_.data().tree(), segment->segment, [&](std::uint32_t slot) {
+        const std::uint32_t g = placed_.data().triangle_at(slot);
+        const Triangle t = corners(g);
+        std::array<int, 3> turn{};
+        for (std::size_t k = 0; k < 3; ++k)
+            turn.at(k) = turn_around_line(ray.origin, ray.direction, t[k], t[(k + 1) % 3]);
+        const auto [least, most] = std::ranges::minmax(turn);
+        if (least * most < 0)
+            return;
+        const auto hit = ray_triangle_intersect(ray, t);
+        if (!hit)
+            return;
+        if (least * most == 0) {
+            clear = clear && collinear(t[0], t[1], t[2]);
+            return;
+        }
+        const int order = g == f ? 0 : compare_hits(ray, t, *hit, at, *hit_f);
+        // Winds once more before the hit than behind it, if the ray leaves through the face.
+        const int times = -hit->side * faces_[g].weight;
+        const std::size_t solid = faces_[g].solid;
+        if (order > 0)
+            ahead.at(solid) += times;
+        if (order >= 0)
+            from_here.at(solid) += times;
+        met_f = met_f || g == f;
+        result.is_first = result.is_first && (order != 0 || g >= f);
+    });
+    if (!clear || !met_f)
+        return std::nullopt;
+    result.over = hit_f->side > 0 ? from_here : ahead;
+    result.under = hit_f->side > 0 ? ahead : from_here;
+    return result;
+}
+
+/// The sides of a triangle at a point of it.
+std::optional<FaceFragments::Sides> FaceFragments::sides(std::uint32_t f, const Vec3& point) const {
+    const Triangle t = corners(f);
+    const Vec3 normal = normalized_or_zero(cross(t[1] - t[0], t[2] - t[0]));
+    const double far = 4 * placed_.reach();
+    for (int attempt = 0; attempt < 16; ++attempt) {
+        // Close to the normal, so that the ray passes the triangle near the point; in no special
+        // direction, so that it misses edges.
+        const double angle = 2.399963229728653 * attempt + 0.7; // the golden angle
+        const Vec3 u = normalized_or_zero(perpendicular(normal)), v = cross(normal, u);
+        const Vec3 direction = normal + 0.317 * std::cos(angle) * u + 0.317 * std::sin(angle) * v;
+        const Ray ray{point - far * direction, direction};
+        if (const auto found = sides_along(f, ray, point + far * direction))
+            return found;
+    }
+    return std::nullopt;
+}
+
+bool FaceFragments::for_each(const std::function<void(const Fragment&)>& visit) {
+    std::vector<std::optional<Sides>> of_group(faces_.size());
+    std::size_t count = 0;
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+        poll_stop();
+        const Triangle t = corners(f);
+        if (collinear(t[0], t[1], t[2]))
+            continue;
+        std::vector<Polygon> polygons = cut(f);
+        count += polygons.size();
+        if (count > budget_)
+            return false;
+        const bool is_whole = polygons.size() == 1;
+        for (Polygon& polygon : polygons) {
+            std::optional<Sides>& known = of_group[group_[f]];
+            const bool in_group = meets_[f].empty();
+            std::optional<Sides> found = in_group && known ? known : sides(f, centroid_of(polygon));
+            if (!found && is_whole)
+                return false;
+            if (!found)
+                continue; // a fragment so narrow that rays pass beside it
+            if (in_group)
+                known = found;
+            visit({f, std::move(polygon), is_whole, *found});
+        }
+    }
+    return true;
+}
+
+} // namespace abut

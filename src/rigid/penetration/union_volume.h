@@ -1,0 +1,26 @@
+#pragma once
+
+#include "rigid/penetration/overlap_volume.h"
+
+namespace abut {
+
+/// The volume of a solid whose shells overlap: that of their union.
+///
+/// In          solid: has a boundary() of its own.
+std::optional<OverlapVolume> union_volume(const WorldSolid& solid);
+
+/// The volume that two solids have in common, if shells of one of them overlap. It is the integral
+/// over the parts of all faces that have the common solid on one side only.
+///
+/// In          closed solids whose orientation is known.
+/// Out         none if both have more than kMostOverlapTriangles triangles together, or if there
+///             are too many parts (FaceFragments::for_each); or if one has T-junctions.
+/// Accuracy    |volume - true volume| <= error: rounding, and parts narrower than 2^-40 of the
+///             solids' size.
+/// Cost        O(n log n + pairs of faces that meet), and a ray for each part of a cut face.
+std::optional<OverlapVolume> union_overlap_volume(const WorldSolid& a, const WorldSolid& b);
+
+/// Returns none if the coordinates are so large that a product is beyond the range of numbers.
+std::optional<OverlapVolume> finite_volume(double volume, double error);
+
+} // namespace abut
