@@ -26,8 +26,10 @@ Ball ball_around(const PlacedModel& model, NodeRef ref, const Aabb& box, const N
             model.most_stretch() * (length(upper - middle) + off) * (1 + 0x1p-20)};
 }
 
-bool visit_faces(const PlacedModel& model, const Box3& box, double around, ReachSearch& search,
-                 const std::function<bool(const Triangle&)>& visit) {
+bool visit_faces(const WorldSolid::Block& block, const Box3& box, double around,
+                 ReachSearch& search,
+                 const std::function<bool(const Triangle&, std::uint32_t)>& visit) {
+    const PlacedModel& model = block.model;
     const Tree& tree = model.data().tree();
     if (tree.empty())
         return true;
@@ -43,7 +45,7 @@ bool visit_faces(const PlacedModel& model, const Box3& box, double around, Reach
         if (ball.ref.is_leaf()) {
             const std::uint32_t first = ball.ref.first();
             for (std::uint32_t slot = first; slot < first + ball.ref.count(); ++slot)
-                if (!visit(model.world_slot(slot)))
+                if (!visit(model.world_slot(slot), block.number(model.data().triangle_at(slot))))
                     return false;
             continue;
         }
@@ -58,10 +60,10 @@ bool visit_faces(const PlacedModel& model, const Box3& box, double around, Reach
 
 void for_each_face_in_reach(const WorldSolid& surface, const Box3& box, double around,
                             ReachSearch& search,
-                            const std::function<bool(const Triangle&)>& visit) {
+                            const std::function<bool(const Triangle&, std::uint32_t)>& visit) {
     bool go_on = true;
-    surface.for_each_block(box, [&](const WorldSolid::Block& block) {
-        return go_on = visit_faces(block.model, box, around, search, visit);
+    surface.for_each_surface_block(box, [&](const WorldSolid::Block& block) {
+        return go_on = visit_faces(block, box, around, search, visit);
     });
 }
 

@@ -39,19 +39,19 @@ Proof all_points_pass(const WorldSolid& surface, const WorldSolid& solid,
     ReachSearch search(solid, options);
     Box3 box =
         grown(options.both_sides ? surface.world_box() : solid.world_box(), options.rounding);
-    for_each_face_in_reach(surface, box, 0, search, [&](const Triangle& face) {
+    for_each_face_in_reach(surface, box, 0, search, [&](const Triangle& face, std::uint32_t) {
         return search.add(polygon_of(face)) == Proof::holds;
     });
     return search.proof();
 }
 
-/// Adds a face with its normal outward. If the surface's normals do not tell which side is outside,
-/// points close to the face tell; if these do not tell either, the face is added both ways.
-void add_turned_outward(const Triangle& face, const WorldSolid& solid,
+/// Adds a face with its normal outward. If its weight does not tell which side is outside, points
+/// close to the face tell; if these do not tell either, the face is added both ways.
+void add_turned_outward(const Triangle& face, int weight, const WorldSolid& solid,
                         std::vector<Triangle>& faces) {
     const Triangle turned{face[0], face[2], face[1]};
-    if (solid.outward() != 0)
-        return faces.push_back(solid.outward() < 0 ? turned : face);
+    if (weight != 0)
+        return faces.push_back(weight < 0 ? turned : face);
     const FaceProbe probe = face_probe(face);
     const bool over = solid.contains(probe.over), under = solid.contains(probe.under);
     if (over == under || under)
@@ -67,10 +67,11 @@ Proof no_ball_touches(const WorldSolid& touched, const WorldSolid& other,
     ReachSearch search(other, options);
     std::vector<Triangle> faces;
     const Box3 box = grown(other.world_box(), options.rounding);
-    for_each_face_in_reach(touched, box, 2 * radius, search, [&](const Triangle& face) {
-        add_turned_outward(face, touched, faces);
-        return true;
-    });
+    for_each_face_in_reach(touched, box, 2 * radius, search,
+                           [&](const Triangle& face, std::uint32_t number) {
+                               add_turned_outward(face, touched.weight(number), touched, faces);
+                               return true;
+                           });
     for_each_centre_polygon(faces, radius, [&](const FacePolygon& polygon) {
         return search.add(polygon) == Proof::holds;
     });

@@ -53,7 +53,7 @@ std::optional<Triangle> triangle_met_by(const FacePolygon& polygon, const WorldS
                                         const ReachSearch::Options& options) {
     std::optional<Triangle> met;
     const Box3 box = grown(box_of(polygon), options.rounding);
-    surface.for_each_block(box, [&](const WorldSolid::Block& block) {
+    surface.for_each_surface_block(box, [&](const WorldSolid::Block& block) {
         block.model.for_each_overlap(box, [&](std::uint32_t slot) {
             if (met)
                 return;
