@@ -188,6 +188,8 @@ private:
     /// The first look, and by how much later each further one is. A look costs about as much as a visit
     /// for so many vertices, so it comes when as much was done.
     static constexpr std::uint64_t kFirstLook = 64, kLater = 4, kVerticesAVisit = 256;
+    /// search_gap first takes as long as a visit for so many triangles.
+    static constexpr std::uint64_t kTrianglesAVisit = 8;
     /// Single precision hides lateral distances of some 2e-3 of a gap, see search_gap. It hides whole
     /// triangles where gaps are so many times as long as their edges.
     static constexpr double kFar = 100;
@@ -242,9 +244,9 @@ private:
         const bool all_ties = found_ && goal_ == Goal::least;
         if (!all_ties && closest_sq_ > 0 && nothing_between())
             return true;
-        hard_ = visits_ >= 8 * triangles_ || (2 * visits_ >= triangles_ && is_far());
-        next_look_ = visits_ < triangles_ / 2 ? std::min(kLater * visits_, triangles_ / 2)
-                                              : kLater * visits_;
+        const std::uint64_t early = triangles_ / kTrianglesAVisit;
+        hard_ = visits_ >= 8 * triangles_ || (visits_ >= early && is_far());
+        next_look_ = visits_ < early ? std::min(kLater * visits_, early) : kLater * visits_;
         return hard_;
     }
 
