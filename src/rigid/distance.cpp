@@ -107,6 +107,8 @@ public:
         return normalized_or_zero(points.b - points.a);
     }
 
+    /// For Goal::nearest, also pairs that are as near as the nearest one, to a few roundings of the
+    /// computed gap, if `Gap::at_least` is proven for them.
     [[nodiscard]] bool is_beyond(double computed, double sizes) const override {
         switch (goal_) {
         case Goal::first: // decided to rounding
@@ -114,7 +116,11 @@ public:
         case Goal::nearest: {
             // Where rounding is as large as the bound, a pair may still be nearer, or a contact.
             const double certain = certain_gap(computed, sizes);
-            return certain > 0 && (certain > beyond_ || (sure_ > 0 && certain >= sure_));
+            if (!(certain > 0))
+                return false;
+            const bool ties = sure_ > 0 && certain >= sure_ &&
+                              computed >= beyond_ * (1 - 8 * kUnit) - 4 * kUnit * sizes;
+            return ties || certain > beyond_;
         }
         default: // a pair may be measured as nearer than it is
             return certain_gap(computed, sizes) - measuring_error(reach_) > beyond_;
@@ -193,6 +199,7 @@ private:
     /// Single precision hides lateral distances of some 2e-3 of a gap, see search_gap. It hides whole
     /// triangles where gaps are so many times as long as their edges.
     static constexpr double kFar = 100;
+    static constexpr double kUnit = 0x1p-53; ///< the largest relative error of one rounding
 
     struct Candidate {
         Triangle a, b;
@@ -254,7 +261,7 @@ private:
     /// nearer pair. For Goal::first, takes a pair whose distance is the bound to rounding if no pair is
     /// nearer than that.
     bool nothing_between() {
-        constexpr double kRounding = 16 * 0x1p-53;
+        constexpr double kRounding = 16 * kUnit;
         const ClosestPoints points = triangle_triangle_distance(best_.a, best_.b);
         const GapFrame frame(points.a, points.b);
         // The vertices of a are within 2 reach_ of one another, and within reach_ of those of b.

@@ -1,5 +1,7 @@
 #include "rigid/pair/gap_search.h"
 
+#include "core/stop.h"
+
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <cmath>
@@ -31,6 +33,7 @@ public:
 
 private:
     Box3 box_of_children(std::uint32_t index) {
+        poll_stop();
         const Node& node = tree().nodes[index];
         Box3 all;
         for (std::uint32_t lane = 0; lane < Node::kWidth && !node.child[lane].is_none(); ++lane) {

@@ -163,6 +163,7 @@ TEST(FarApart, NearlyParallelSurfacesAgainstAllPairs) {
         ASSERT_LE(gap.at_least, least);
         ASSERT_GE(gap.distance, least * (1 - 4 * 0x1p-53));
         ASSERT_LE(gap.distance, least + 2 * (gap.distance - gap.at_least));
+        ASSERT_LE(gap.distance, least * (1 + 128 * 0x1p-53) + 16 * 0x1p-53);
         ended_early += gap.distance > least * (1 + 4 * 0x1p-53) ? 1 : 0;
         ASSERT_LE(gap.distance - gap.at_least, 1e-13 * (least + 1e4));
         // Of the pairs with the least distance, the one with the smallest indices, to the last bit.
