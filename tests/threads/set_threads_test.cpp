@@ -17,6 +17,7 @@
 #include "tests/support/folder.h"
 #include "tests/support/moving_meshes.h"
 #include "tests/support/rounds.h"
+#include "tests/support/sanitizer.h"
 #include "tests/support/shapes.h"
 
 #include <array>
@@ -31,11 +32,8 @@
 namespace abut::test {
 namespace {
 
-#if defined(__SANITIZE_THREAD__)
-constexpr int kRounds = 3;
-#else
-constexpr int kRounds = 12;
-#endif
+constexpr int kRounds = reduced_for_threads(10, 3);
+constexpr int kClothCells = reduced_for_threads(12, 8);
 
 /// Changes the limit of threads over and over until it is destroyed, and then lifts it.
 class ChangingLimit {
@@ -88,7 +86,7 @@ MovingMesh folding_cloth(int cells) {
 }
 
 TEST(SetThreads, BesideSelfImpactsOfEachSchemeAndCulling) {
-    const MovingMesh cloth = folding_cloth(24);
+    const MovingMesh cloth = folding_cloth(kClothCells);
     for (const Scheme scheme : {Scheme::database, Scheme::representative, Scheme::pairwise,
                                 Scheme::markup, Scheme::basic, Scheme::features})
         for (const Culling culling : {Culling::tree, Culling::grid, Culling::sweep}) {
@@ -102,7 +100,7 @@ TEST(SetThreads, BesideSelfImpactsOfEachSchemeAndCulling) {
 }
 
 TEST(SetThreads, BesideOtherQueriesOfDeformables) {
-    const MovingMesh cloth = folding_cloth(24);
+    const MovingMesh cloth = folding_cloth(kClothCells);
     const Deformable surface = cloth.deformable(),
                      tested_once = cloth.deformable({.scheme = Scheme::database});
     expect_same_answers([&] { return self_time_of_impact(surface); });
