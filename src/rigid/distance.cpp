@@ -159,11 +159,11 @@ public:
     /// by search_gap, in the frame `across`.
     [[nodiscard]] bool is_hard() const { return hard_; }
     [[nodiscard]] GapFrame across() const {
-        if (closest_sq_ == std::numeric_limits<double>::infinity())
-            return {pair_.a().world_slot(0, pair_.world_from_a())[0],
-                    pair_.b().world_slot(0, pair_.world_from_b())[0]};
-        const ClosestPoints points = triangle_triangle_distance(best_.a, best_.b);
-        return {points.a, points.b};
+        if (closest_sq_ < std::numeric_limits<double>::infinity())
+            return GapFrame::between(best_.a, best_.b);
+        const Vec3 from = pair_.a().world_slot(0, pair_.world_from_a())[0],
+                   to = pair_.b().world_slot(0, pair_.world_from_b())[0];
+        return {from, to - from};
     }
     /// Call it before search_gap: there is no other way left to search.
     void search_to_the_end() {
@@ -262,8 +262,10 @@ private:
     /// nearer than that.
     bool nothing_between() {
         constexpr double kRounding = 16 * kUnit;
-        const ClosestPoints points = triangle_triangle_distance(best_.a, best_.b);
-        const GapFrame frame(points.a, points.b);
+        const GapFrame frame = across();
+        double least_of_b = std::numeric_limits<double>::infinity();
+        for (const Vec3& vertex : best_.b)
+            least_of_b = std::min(least_of_b, frame.height(vertex));
         // The vertices of a are within 2 reach_ of one another, and within reach_ of those of b.
         const double sizes = 3 * reach_;
         const bool at_bound =
@@ -274,7 +276,7 @@ private:
             return is_beyond(computed, sizes) ||
                    (at_bound && sure_ > 0 && certain_gap(computed, sizes) >= sure_);
         };
-        if (!are_apart_along(pair_, frame, frame.height(points.b), enough))
+        if (!are_apart_along(pair_, frame, least_of_b, enough))
             return false;
         if (at_bound && !is_beyond(gap, sizes))
             found_ = true;

@@ -16,8 +16,12 @@ namespace abut {
 /// one is known to rounding however far apart they are.
 class GapFrame {
 public:
-    /// Points that coincide, or are not finite, give the axes of the world.
-    GapFrame(const Vec3& from, const Vec3& to);
+    /// A direction that is zero or not finite gives the axes of the world.
+    GapFrame(const Vec3& origin, const Vec3& across);
+    /// The frame at the closest points of a triangle of a and one of b, which are apart. Across a gap
+    /// that is short beside the triangles, the difference of the points is a poor direction. So the z
+    /// axis is the normal of the features that the points lie on, if they have one.
+    static GapFrame between(const Triangle& a, const Triangle& b);
 
     [[nodiscard]] Vec3 seen(const Vec3& world) const {
         const Vec3 r = world - origin_;
@@ -44,7 +48,7 @@ inline double certain_gap(double computed, double sizes) {
 }
 
 /// Computes how far apart the models lie along the frame's z axis: the lowest vertex of b less the
-/// highest one of a. Calls enough(gap) with gaps that decrease to the result. Stops and returns false as
+/// highest one of a. `least_of_b` is the height of some point of b. Calls enough(gap) with gaps that decrease to the result. Stops and returns false as
 /// soon as that is false.
 ///
 /// Cost        reads each vertex once, or ends at the first of those in the way.
