@@ -7,6 +7,7 @@
 #include "peers/peer_rigid.h"
 #include "scenes/bodies.h"
 #include "suite.h"
+#include "suites/far_apart_rows.h"
 
 #include <algorithm>
 #include <array>
@@ -29,9 +30,10 @@ struct RigidSuiteOptions {
     std::vector<std::uint32_t> generated;
     std::size_t poses = 500; ///< in each regime
     int rounds = 3;
-    bool alone = false;   ///< without peers
-    bool volumes = false; ///< also with every other kind of bounding volume, and with some mixed
-    std::string only;     ///< runs only the cases whose name contains this
+    bool alone = false;     ///< without peers
+    bool far_apart = false; ///< in place of the models: two plates that face each other
+    bool volumes = false;   ///< also with every other kind of bounding volume, and with some mixed
+    std::string only;       ///< runs only the cases whose name contains this
     std::uint64_t seed = 1;
 };
 
@@ -300,6 +302,10 @@ Report run_rigid_suite(const RigidSuiteOptions& options) {
         throw Error(ErrorCode::bad_argument, "an odd number of files: they come in pairs");
     Report report;
     report.suite = "rigid";
+    if (options.far_apart) {
+        add_far_apart_rows(options.rounds, options.alone, report);
+        return report;
+    }
     const auto run = [&](const std::string& name_a, Mesh a, const std::string& name_b, Mesh b) {
         const RigidScene scene = make_rigid_scene(name_a + " / " + name_b, std::move(a),
                                                   std::move(b), options.poses, options.seed);
@@ -347,6 +353,8 @@ const Suite
                     add_rounds(suite, options->rounds);
                     add_only(suite, options->only);
                     suite.add_flag("--alone", options->alone, "Without peers");
+                    suite.add_flag("--far-apart", options->far_apart,
+                                   "In place of models: two plates, 1 to 10,000 m apart");
                     suite.add_flag("--volumes", options->volumes,
                                    "Also with every kind of bounding volume, and with mixed ones");
                     suite.add_option("--seed", options->seed, "Of the poses");

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <tbb/global_control.h>
+#include <utility>
 
 namespace abut {
 
@@ -16,10 +17,12 @@ void set_threads(int count) {
     if (count < 0)
         throw Error(ErrorCode::bad_argument, "threads must not be negative");
     const std::scoped_lock lock(g_threads_mutex);
-    g_threads.reset();
+    // The old limit ends after the new one has begun, so that no query meanwhile runs without one.
+    std::unique_ptr<tbb::global_control> limit;
     if (count > 0)
-        g_threads = std::make_unique<tbb::global_control>(
-            tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count));
+        limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                      static_cast<std::size_t>(count));
+    g_threads = std::move(limit);
 }
 
 ProgressMeter::ProgressMeter(const Progress& progress, std::string_view stage, std::size_t total)

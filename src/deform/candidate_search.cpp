@@ -27,9 +27,13 @@ CandidateSearch::CandidateSearch(const DeformableData& a, const DeformableData& 
         throw Error(ErrorCode::bad_argument, "the surfaces have different schemes");
     if (a.options.culling != b.options.culling)
         throw Error(ErrorCode::bad_argument, "the surfaces have different cullings");
-    if (scheme_ == Scheme::database)
-        tested_ = std::make_unique<ConcurrentSet>(
-            tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) == 1);
+    if (scheme_ == Scheme::database) {
+        // The limit says only what is best: another thread may change it while the tasks run, and
+        // oneTBB applies a new limit late. for_each_task makes sure of what runs.
+        on_one_thread_ =
+            tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) == 1;
+        tested_ = std::make_unique<ConcurrentSet>(on_one_thread_);
+    }
     if (scheme_ == Scheme::features)
         split_features();
     else if (a.options.culling == Culling::grid)

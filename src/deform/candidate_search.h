@@ -3,6 +3,8 @@
 #include <abut/deformable.h>
 
 #include "core/concurrent_set.h"
+#include "core/parallel.h"
+#include "core/stop.h"
 #include "deform/feature_pairs.h"
 #include "deform/feature_trees.h"
 #include "deform/leaf_boxes.h"
@@ -27,7 +29,7 @@ float margin_of(double distance);
 
 /// Finds the feature pairs of two surfaces, or of one surface with itself, that may come within a
 /// distance of each other. The surfaces' scheme and culling determine how. The search is divided
-/// into tasks, which may run in any order and on any thread.
+/// into tasks, which may run in any order, and on any thread if for_each_task calls them.
 class CandidateSearch {
 public:
     /// Searches with the hierarchies `swept_a` and `swept_b`, which may differ from the surfaces'
@@ -43,6 +45,11 @@ public:
     [[nodiscard]] std::size_t tasks() const {
         return culling_ ? culling_->tasks() : starts_.size();
     }
+    /// Calls body(task) for every task, in parallel. A search whose table of tested pairs has no locks
+    /// calls them one after the other on the calling thread, whatever the limit of threads has become
+    /// since.
+    template <typename Body>
+    void for_each_task(const Body& body) const;
     /// Hands the candidates of a task to a sink (see FeaturePairs) until the sink is done. Adds the
     /// numbers of candidates and triangle pairs to `counters`, unless it is null.
     template <typename Sink>
@@ -76,7 +83,18 @@ private:
     std::unique_ptr<const TriangleCulling> culling_; ///< finds triangle pairs if no hierarchy does;
                                                      ///< else null
     std::unique_ptr<ConcurrentSet> tested_;          ///< for Scheme::database
+    bool on_one_thread_ = false; ///< tasks run one after the other; `tested_` has no locks
 };
+
+template <typename Body>
+void CandidateSearch::for_each_task(const Body& body) const {
+    if (!on_one_thread_)
+        return parallel_for(tasks(), 1, body);
+    for (std::size_t task = 0; task < tasks(); ++task) {
+        poll_stop();
+        body(task);
+    }
+}
 
 template <typename Sink>
 void CandidateSearch::run(std::size_t task, Sink& sink, DeformableCounters* counters) const {

@@ -85,7 +85,7 @@ bool is_free(const DeformableData& a, const DeformableData& b, const ElementaryO
     const StopScope stopping(progress);
     const CandidateSearch search(a, a.swept, b, b.swept, options.thickness);
     std::atomic<bool> found = false;
-    parallel_for(search.tasks(), 1, [&](std::size_t i) {
+    search.for_each_task([&](std::size_t i) {
         AnyImpact keeper{found};
         if (keeper.is_done())
             return;

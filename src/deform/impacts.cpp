@@ -74,7 +74,7 @@ Impacts find_impacts(const DeformableData& a, const DeformableData& b,
     const StopScope stopping(progress);
     const CandidateSearch search(a, b, options.thickness);
     std::vector<Impacts> parts(search.tasks());
-    parallel_for(parts.size(), 1, [&](std::size_t i) {
+    search.for_each_task([&](std::size_t i) {
         AllImpacts keeper{parts[i].list};
         ImpactCollector<AllImpacts> collector(a, b, options, keeper);
         search.run(i, collector, &parts[i].counters);

@@ -62,7 +62,7 @@ std::vector<FeaturePair> find_near(const DeformableData& a, const DeformableData
     }
     const CandidateSearch search(a, rest_a, b, &a == &b ? rest_a : rest_b, distance);
     std::vector<std::vector<FeaturePair>> parts(search.tasks());
-    parallel_for(parts.size(), 1, [&](std::size_t i) {
+    search.for_each_task([&](std::size_t i) {
         NearPairs sink(a, b, distance, parts[i]);
         search.run(i, sink);
     });

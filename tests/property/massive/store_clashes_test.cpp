@@ -14,6 +14,7 @@
 #include "tests/support/folder.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
+#include "tests/support/sanitizer.h"
 #include "tests/support/shapes.h"
 #include "tests/support/stored_job.h"
 
@@ -85,7 +86,8 @@ Mesh some_large_body(Random& random) {
 TEST(OutOfCore, LargeMeshesInBlocksEqualTheJobInCore) {
     Random random(6106);
     std::size_t clashes = 0, of_large = 0, runs = 0, again = 0;
-    for (int round = 0; round < many(2); ++round) {
+    const int rounds = many(reduced_for_threads(2, 1));
+    for (int round = 0; round < rounds; ++round) {
         Scene scene = some_scene(random, 40, 3);
         const std::size_t small = scene.parts.size();
         for (int i = 0; i < 4; ++i) {
@@ -131,7 +133,7 @@ TEST(OutOfCore, LargeMeshesInBlocksEqualTheJobInCore) {
     }
     std::cout << clashes << " clashes, " << of_large << " with large meshes; of " << runs
               << " runs " << again << " read blocks again\n";
-    EXPECT_GT(of_large, static_cast<std::size_t>(many(2)) * 4);
+    EXPECT_GT(of_large, static_cast<std::size_t>(rounds) * 4);
     EXPECT_GT(again, 0U);
 }
 

@@ -13,6 +13,7 @@
 #include "tests/support/clash_scenes.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
+#include "tests/support/sanitizer.h"
 
 #include <atomic>
 #include <gtest/gtest.h>
@@ -117,7 +118,8 @@ ClashOptions some_question(Random& random) {
 TEST(Recheck, TestsOnlyChangedPairsAndFindsAllClashes) {
     Random random(6201);
     std::uint64_t tested = 0, recalled = 0, clashes = 0;
-    for (int round = 0; round < many(8); ++round) {
+    const int rounds = many(reduced_for_threads(8, 2));
+    for (int round = 0; round < rounds; ++round) {
         ChangingSite site(random, random.integer(1, 2), 70);
         Recheck question(site, some_question(random));
         ASSERT_TRUE(question.ask());
@@ -140,8 +142,8 @@ TEST(Recheck, TestsOnlyChangedPairsAndFindsAllClashes) {
     std::cout << recalled << " pairs recalled, " << tested << " tested again, " << clashes
               << " clashes\n";
     EXPECT_GT(recalled, tested / 2);
-    EXPECT_GT(tested, static_cast<std::uint64_t>(many(8)) * 50);
-    EXPECT_GT(clashes, static_cast<std::uint64_t>(many(8)) * 50);
+    EXPECT_GT(tested, static_cast<std::uint64_t>(rounds) * 50);
+    EXPECT_GT(clashes, static_cast<std::uint64_t>(rounds) * 50);
 }
 
 /// Pairs that a stopped job tested are recalled too, even after imports.
@@ -149,7 +151,8 @@ TEST(Recheck, ResumesAStoppedJobAfterAnImport) {
     Random random(6202);
     std::uint64_t recalled = 0, tested = 0;
     int stops = 0;
-    for (int round = 0; round < many(6); ++round) {
+    const int rounds = many(reduced_for_threads(6, 2));
+    for (int round = 0; round < rounds; ++round) {
         ChangingSite site(random, random.integer(1, 2), 120);
         Recheck question(site, some_question(random));
         for (int again = 0; again < 6; ++again) {
@@ -166,7 +169,7 @@ TEST(Recheck, ResumesAStoppedJobAfterAnImport) {
         tested += question.tested_;
     }
     std::cout << stops << " stops, " << recalled << " pairs recalled, " << tested << " tested\n";
-    EXPECT_GE(stops, many(6) / 2);
+    EXPECT_GE(stops, rounds / 2);
     EXPECT_GT(recalled, tested / 4);
 }
 

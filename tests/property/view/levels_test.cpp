@@ -14,11 +14,13 @@
 #include "tests/support/folder.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
+#include "tests/support/sanitizer.h"
 #include "tests/support/shapes.h"
 #include "view/levels/level_tree.h"
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <gtest/gtest.h>
 #include <map>
 #include <set>
@@ -56,14 +58,14 @@ Scene rough_scene(Random& random, bool far) {
                 {id, id, "", static_cast<std::uint32_t>(scene.meshes.size() - 1), place});
         }
     };
-    add(torus_mesh(5, 2, 300, 125), 1);
+    add(torus_mesh(5, 2, 300, 125), 1); // cut into blocks
     add(sphere_mesh(1.5, 40, 30), 8);
     add(torus_mesh(0.5, 0.1, 30, 12), 20);
-    for (int i = 0; i < 60; ++i)
+    for (int i = 0; i < reduced_for_threads(60, 10); ++i)
         add(with_degenerates(random, sphere_mesh(random.uniform(0.001, 2), 12, 9), 5), 1);
-    for (int i = 0; i < 40; ++i)
+    for (int i = 0; i < reduced_for_threads(40, 6); ++i)
         add(soup_mesh(random, 200, random.uniform(0.1, 1), 0.3), 1);
-    for (int i = 0; i < 300; ++i)
+    for (int i = 0; i < reduced_for_threads(300, 60); ++i)
         add(box_mesh({0, 0, 0}, {random.uniform(0.001, 0.2), 0.1, random.uniform(0.1, 4)}), 1);
     return scene;
 }
@@ -364,7 +366,8 @@ void expect_sound_tree(const std::string& path) {
 TEST(Levels, ErrorsHoldInAPlant) {
     for (const bool distinct : {false, true}) {
         const Folder folder;
-        const std::string store = store_of(plant_scene(60'000, distinct), folder);
+        const std::string store =
+            store_of(plant_scene(reduced_for_threads(60'000U, 12'000U), distinct), folder);
         const LevelReport report = build_levels(store);
         EXPECT_TRUE(report.built);
         EXPECT_TRUE(has_levels(open_store(store)));
@@ -430,7 +433,7 @@ TEST(Levels, AreTheSameWithAnyThreads) {
 
 TEST(Levels, AreContinued) {
     const Folder folder;
-    const Scene scene = plant_scene(100'000, true);
+    const Scene scene = plant_scene(reduced_for_threads(100'000U, 30'000U), true);
     const std::string whole = store_of(scene, folder, "whole"),
                       parts = store_of(scene, folder, "parts");
     const LevelReport report = build_levels(whole);
@@ -467,12 +470,12 @@ TEST(Levels, AreContinued) {
 
 TEST(Levels, AreReusedAfterAChange) {
     const Folder folder;
-    Scene scene = plant_scene(200'000, true);
+    Scene scene = plant_scene(reduced_for_threads(200'000U, 60'000U), true);
     const std::string store = store_of(scene, folder);
     const LevelReport first = build_levels(store);
     const std::string model = folder / "a.glb";
-    scene.parts[1000].world_from_mesh.m[9] += 0.25;
-    scene.parts.erase(scene.parts.begin() + 2000);
+    scene.parts[scene.parts.size() / 4].world_from_mesh.m[9] += 0.25;
+    scene.parts.erase(scene.parts.begin() + std::ptrdiff_t(scene.parts.size() / 2));
     write_glb(scene, model);
     (void)import_models({model}, store);
     EXPECT_FALSE(has_levels(open_store(store)));

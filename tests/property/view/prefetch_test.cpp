@@ -7,6 +7,7 @@
 #include "scenes/plant/plant.h"
 #include "store/database/store_file.h"
 #include "tests/support/folder.h"
+#include "tests/support/sanitizer.h"
 #include "view/level_view.h"
 
 #include <algorithm>
@@ -95,8 +96,11 @@ PathFigures replay(StoreFile& store, const Tour& tour, bool plans) {
 TEST(Prefetch, HitsOnASmoothPath) {
     const Folder folder;
     const std::string path = folder / "plant.abut";
-    write_glb(make_plant({.triangles = 600'000, .clashes = 0, .distinct = true}).scene,
-              folder / "plant.glb");
+    write_glb(
+        make_plant(
+            {.triangles = reduced_for_threads(600'000U, 120'000U), .clashes = 0, .distinct = true})
+            .scene,
+        folder / "plant.glb");
     (void)import_models({folder / "plant.glb"}, path);
     (void)build_levels(path);
     const Store store = open_store(path);
