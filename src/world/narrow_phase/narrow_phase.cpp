@@ -6,11 +6,13 @@
 #include "math/transform.h"
 #include "rigid/model/model_data.h"
 #include "rigid/solid/containment.h"
+#include "world/narrow_phase/core_gap.h"
 #include "world/narrow_phase/offset_surface.h"
 #include "world/narrow_phase/solid_gap.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 // The table of shape pairs: an overload of `meet` and of `measure` for each pair of kinds. Surfaces
 // come before convex bodies, these before rounded boxes, then curved shapes and half-spaces. For the
@@ -71,10 +73,6 @@ Core core_of(const RoundedBox& solid) {
             : dimension(solid) == 1 ? segment
                                     : cube,
             offset_surface_of(solid).body_from_surface};
-}
-
-bool has_inside(const Model& model) {
-    return model.data().solid().closed;
 }
 
 BodyGap from_rigid(const Gap& gap) {
@@ -217,37 +215,14 @@ bool any_component_inside(const PlacedSurface& a, const RoundedBox& box) {
     });
 }
 
-BodyGap measure_point(const PlacedSurface& a, const Vec3& centre, double upper_bound,
-                      Depths depths) {
-    NearestOptions options;
-    options.upper_bound = upper_bound;
-    options.signed_distance = depths == Depths::yes && has_inside(a.shape);
-    const Nearest found = nearest(a.shape, a.world, centre, options);
-    BodyGap gap;
-    gap.distance = found.distance, gap.status = found.status;
-    gap.point_a = found.point, gap.point_b = centre, gap.triangle_a = found.triangle;
-    const Vec3 way = centre - found.point;
-    gap.normal = normalized_or_zero(found.distance < 0 ? -way : way);
-    return gap;
-}
-
 BodyGap measure(const PlacedSurface& a, const PlacedRounded& b, double upper_bound, Depths depths,
                 PairWarmStart& warm_start) {
     const RoundedBox solid = placed(b.shape, b.world);
-    // Enlarged to cover the rounding when the radius is subtracted again.
-    const double bound = (std::max(upper_bound, 0.0) + solid.radius) * (1 + 0x1p-50);
     switch (dimension(solid)) {
     case 0:
-        return with_radius(measure_point(a, solid.centre, bound, depths), solid.radius);
-    case 1: {
-        DistanceOptions options;
-        options.upper_bound = bound;
-        BodyGap core = from_rigid(distance(a.shape, a.world, axis_of(solid), options));
-        // If the axis crosses the surface, the radius is only part of the depth.
-        if (core.distance == 0)
-            core.status = Status::bound_only;
-        return with_radius(core, solid.radius);
-    }
+        return ball_gap(a.shape, a.world, {solid.centre, solid.radius}, upper_bound, depths);
+    case 1:
+        return capsule_gap(a.shape, a.world, {axis_of(solid), solid.radius}, upper_bound, depths);
     default:
         const OffsetSurface faces = offset_surface_of(b.shape);
         BodyGap gap = measure_models(a.shape, a.world, faces.surface,
@@ -381,6 +356,20 @@ BodyGap gap_between(const PlacedBody& a, const PlacedBody& b, double upper_bound
             return measure(x, y, upper_bound, depths, warm_start);
         },
         [](const BodyGap& gap) { return turned_round(gap); });
+}
+
+BodyGap signed_gap_between(const PlacedBody& a, const PlacedBody& b, double upper_bound,
+                           PairWarmStart& warm_start) {
+    if (is_convex(a.shape) && is_convex(b.shape))
+        return gap_between(a, b, upper_bound, Depths::yes, warm_start);
+    BodyGap gap = gap_between(a, b, upper_bound, Depths::no, warm_start);
+    if (gap.distance > upper_bound)
+        return gap;
+    if (touch(a, b, warm_start))
+        return gap_between(a, b, HUGE_VAL, Depths::yes, warm_start);
+    // A gap that rounding hides is still a gap.
+    gap.distance = std::max(gap.distance, std::numeric_limits<double>::min());
+    return gap;
 }
 
 } // namespace abut

@@ -1,0 +1,178 @@
+// Every pair of kinds of shape, placed as people place bodies: parallel, at right angles, flush,
+// concentric, on a grid. Witness points lie on the bodies, and all queries of a world tell one
+// signed distance.
+
+#include <abut/world.h>
+
+#include "tests/support/kinds_of_bodies.h"
+#include "tests/support/random.h"
+#include "tests/support/rounds.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace abut::test {
+namespace {
+
+/// A turn by quarters about all three axes, or by a twelfth about the first.
+Pose turned_on_grid(Random& random, const Vec3& place) {
+    constexpr double kQuarter = 0.70710678118654752;
+    Pose pose{place, {1, 0, 0, 0}};
+    switch (random.integer(0, 4)) {
+    case 0:
+        break;
+    case 1:
+        pose.rotation = {kQuarter, kQuarter, 0, 0};
+        break;
+    case 2:
+        pose.rotation = {kQuarter, 0, kQuarter, 0};
+        break;
+    case 3:
+        pose.rotation = {kQuarter, 0, 0, kQuarter};
+        break;
+    default:
+        pose.rotation = {std::cos(0.2617993877991494), 0, std::sin(0.2617993877991494), 0};
+        break;
+    }
+    return pose;
+}
+
+Vec3 on_grid(Random& random, double step, int count) {
+    const int x = random.integer(-count, count), y = random.integer(-count, count),
+              z = random.integer(-count, count);
+    return {step * x, step * y, step * z};
+}
+
+struct Pair {
+    KindOfBody a, b;
+    Pose pose_a, pose_b;
+};
+
+std::optional<BodyGap> only(const std::vector<BodyGap>& gaps) {
+    return gaps.empty() ? std::nullopt : std::optional(gaps.front());
+}
+
+/// A world of the two bodies.
+World world_of(const Pair& pair) {
+    World world;
+    add(world, pair.a.shape, pair.pose_a), add(world, pair.b.shape, pair.pose_b);
+    return world;
+}
+
+bool is_curved(const KindOfBody& body) {
+    return std::holds_alternative<Cylinder>(body.shape) ||
+           std::holds_alternative<Cone>(body.shape) ||
+           std::holds_alternative<Ellipsoid>(body.shape);
+}
+
+/// Between open surfaces, and for touching models, both witness points are one common point.
+void expect_on_bodies(const Pair& pair, const BodyGap& gap, double tolerance) {
+    if (!std::isfinite(gap.distance))
+        return;
+    EXPECT_NEAR(distance_from_surface(pair.a.shape, pair.pose_a, gap.point_a), 0, tolerance);
+    EXPECT_NEAR(distance_from_surface(pair.b.shape, pair.pose_b, gap.point_b), 0, tolerance);
+    const Vec3 way = gap.point_b - gap.point_a;
+    if (gap.normal == Vec3{}) {
+        EXPECT_NEAR(length(way), 0, tolerance);
+        return;
+    }
+    EXPECT_NEAR(length(gap.normal), 1, 1e-12);
+    EXPECT_NEAR(length(way - gap.distance * gap.normal), 0, tolerance);
+}
+
+std::string text_of(const Pair& pair) {
+    const auto pose = [](const Pose& p) {
+        return "(" + std::to_string(p.translation.x) + " " + std::to_string(p.translation.y) + " " +
+               std::to_string(p.translation.z) + "; " + std::to_string(p.rotation[0]) + " " +
+               std::to_string(p.rotation[1]) + " " + std::to_string(p.rotation[2]) + " " +
+               std::to_string(p.rotation[3]) + ")";
+    };
+    return pair.a.name + " " + pose(pair.pose_a) + " with " + pair.b.name + " " + pose(pair.pose_b);
+}
+
+/// Calls check(pair) for many placements of each pair of kinds.
+template <typename Check>
+void for_pairs_on_grid(Random& random, int rounds, const Check& check) {
+    const std::vector<KindOfBody> kinds = kinds_of_bodies();
+    for (const KindOfBody& a : kinds)
+        for (const KindOfBody& b : kinds)
+            for (int round = 0; round < rounds; ++round) {
+                const double far = round % 4 == 3 ? 1024 : 0;
+                const Vec3 place = far * Vec3{1, -1, 1};
+                Pair pair{
+                    a, b, turned_on_grid(random, place),
+                    turned_on_grid(random, place + on_grid(random, round % 2 == 0 ? .25 : .5, 3))};
+                check(pair);
+            }
+}
+
+TEST(PairsOfKinds, WitnessPointsLieOnTheBodies) {
+    Random random(5401);
+    int checked = 0;
+    for_pairs_on_grid(random, many(60), [&](const Pair& pair) {
+        SCOPED_TRACE(text_of(pair));
+        const bool curved = is_curved(pair.a) || is_curved(pair.b);
+        // Smooth surfaces leave the points of a pair with a curved shape to 1e-8 of their size.
+        const double size = 4 + length(pair.pose_a.translation);
+        const double tolerance = curved ? 1e-7 : 16 * 0x1p-52 * size;
+        World world = world_of(pair);
+        for (const BodyGap& gap : world.penetration())
+            expect_on_bodies(pair, gap, tolerance), ++checked;
+        for (const BodyGap& gap : world.within(2))
+            expect_on_bodies(pair, gap, tolerance), ++checked;
+    });
+    EXPECT_GT(checked, 2000);
+}
+
+/// What must not depend on which query is asked.
+void expect_same(const BodyGap& gap, const BodyGap& other) {
+    EXPECT_EQ(gap.distance, other.distance);
+    EXPECT_EQ(gap.normal, other.normal);
+    EXPECT_EQ(gap.point_a, other.point_a);
+    EXPECT_EQ(gap.point_b, other.point_b);
+    EXPECT_EQ(gap.status, other.status);
+}
+
+TEST(PairsOfKinds, AllQueriesTellOneSignedDistance) {
+    Random random(5402);
+    int meeting = 0, apart = 0;
+    for_pairs_on_grid(random, many(40), [&](const Pair& pair) {
+        SCOPED_TRACE(text_of(pair));
+        const bool touch = !world_of(pair).collide().empty();
+        const auto deep = only(world_of(pair).penetration()), near = only(world_of(pair).within(2));
+        ASSERT_EQ(deep.has_value(), touch);
+        if (near) {
+            EXPECT_EQ(near->distance <= 0, touch);
+        }
+        if (!touch) {
+            ++apart;
+            return;
+        }
+        ++meeting;
+        ASSERT_TRUE(near.has_value());
+        expect_same(*deep, *near);
+        // The same after other queries of the same world.
+        World world = world_of(pair);
+        EXPECT_EQ(world.collide().size(), 1U);
+        expect_same(world.within(0).at(0), *deep);
+        expect_same(world.penetration().at(0), *deep);
+        expect_same(world.within(3).at(0), *deep);
+        expect_same(world.penetration().at(0), *deep);
+        // And with the bodies added in the other order.
+        const auto swapped =
+            only(world_of({pair.b, pair.a, pair.pose_b, pair.pose_a}).penetration());
+        ASSERT_TRUE(swapped.has_value());
+        if (std::isfinite(deep->distance)) {
+            EXPECT_NEAR(swapped->distance, deep->distance, 1e-9);
+        }
+    });
+    EXPECT_GT(meeting, 1000);
+    EXPECT_GT(apart, 1000);
+}
+
+} // namespace
+} // namespace abut::test
