@@ -257,14 +257,23 @@ template <typename Solid>
 bool meet(const Placed<Solid>& a, const PlacedCurved& b, PairWarmStart& warm_start) {
     return supports_meet(support_of(a), support_of(b), warm_start.direction);
 }
+/// The direction from which to search. A depth is searched for from scratch: where several motions
+/// are equally short, the one that is found must not depend on earlier queries.
+Vec3& first_direction(Depths depths, PairWarmStart& warm_start, Vec3& none) {
+    return depths == Depths::yes ? none : warm_start.direction;
+}
 BodyGap measure(const PlacedSurface& a, const PlacedCurved& b, double upper_bound, Depths depths,
                 PairWarmStart& warm_start) {
-    return surface_gap(a.shape, a.world, support_of(b), upper_bound, depths, warm_start.direction);
+    Vec3 none;
+    return surface_gap(a.shape, a.world, support_of(b), upper_bound, depths,
+                       first_direction(depths, warm_start, none));
 }
 template <typename Solid>
-BodyGap measure(const Placed<Solid>& a, const PlacedCurved& b, double upper_bound,
-                Depths /*depths*/, PairWarmStart& warm_start) {
-    return solid_gap(support_of(a), support_of(b), upper_bound, warm_start.direction);
+BodyGap measure(const Placed<Solid>& a, const PlacedCurved& b, double upper_bound, Depths depths,
+                PairWarmStart& warm_start) {
+    Vec3 none;
+    return solid_gap(support_of(a), support_of(b), upper_bound,
+                     first_direction(depths, warm_start, none));
 }
 
 /// A half-space with anything.
