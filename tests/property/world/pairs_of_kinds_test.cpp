@@ -198,5 +198,36 @@ TEST(PairsOfKinds, AllQueriesTellOneSignedDistance) {
     EXPECT_GT(apart, 500);
 }
 
+bool is_model(const KindOfBody& body) {
+    return std::holds_alternative<Model>(body.shape);
+}
+
+TEST(PairsOfKinds, TheDepthAlongTheNormalSeparatesConvexBodies) {
+    Random random(5404);
+    int deep = 0, of_curved = 0, off_curved = 0;
+    for_pairs_on_grid(random, many(30), [&](const Pair& pair) {
+        if (is_model(pair.a) || is_model(pair.b))
+            return;
+        SCOPED_TRACE(text_of(pair));
+        const auto gap = only(world_of(pair).penetration());
+        if (!gap || !std::isfinite(gap->distance) || gap->normal == Vec3{})
+            return;
+        Pair parted = pair;
+        parted.pose_b.translation = pair.pose_b.translation - gap->distance * gap->normal;
+        const auto after = only(world_of(parted).within(1));
+        ASSERT_TRUE(after.has_value());
+        if (is_curved(pair.a) || is_curved(pair.b)) {
+            ++of_curved, off_curved += std::abs(after->distance) > 1e-8 ? 1 : 0;
+            return;
+        }
+        ++deep;
+        EXPECT_NEAR(after->distance, 0, 1e-10);
+    });
+    EXPECT_GT(deep, 300);
+    // The depth of a curved shape may be up to 1e-8 too small where axes are parallel.
+    EXPECT_LE(off_curved, of_curved / 8);
+    std::cout << off_curved << " of " << of_curved << " motions of curved shapes are off\n";
+}
+
 } // namespace
 } // namespace abut::test
