@@ -188,16 +188,19 @@ Candidate deepest_points(const RoundedBox& a, const RoundedBox& b, const LeastOv
                          double rounding) {
     const Vec3 way = least.overlap * least.normal;
     Candidate points;
-    // The farthest point of one box lies below a face of the other, unless they overlap sideways.
+    // The farthest point of one box, brought onto a face of the other: into it, if the faces are
+    // parallel and overlap sideways.
     if (least.kind == LeastOverlap::Kind::face_a) {
-        points.b = farthest(b, -least.normal);
-        points.a = points.b + way;
-        if (box_holds(a, points.a, rounding))
-            return points;
-    } else if (least.kind == LeastOverlap::Kind::face_b) {
-        points.a = farthest(a, least.normal);
+        const Vec3 on_a = farthest(b, -least.normal) + way;
+        points.a = on_a + way_to_box(a, on_a);
         points.b = points.a - way;
         if (box_holds(b, points.b, rounding))
+            return points;
+    } else if (least.kind == LeastOverlap::Kind::face_b) {
+        const Vec3 on_b = farthest(a, least.normal) - way;
+        points.b = on_b + way_to_box(b, on_b);
+        points.a = points.b + way;
+        if (box_holds(a, points.a, rounding))
             return points;
     }
     RoundedBox parted = b;
@@ -236,13 +239,8 @@ SolidGap gap_of_apart(const RoundedBox& a, const RoundedBox& b, const LeastOverl
     return with_radii(a, b, distance, nearest, (1 / distance) * nearest.way);
 }
 
-/// The gap of two boxes whose cores are not both points or segments. Points are relative to a.
-SolidGap gap_of_boxes(const RoundedBox& a, const RoundedBox& b, double upper_bound) {
-    const LeastOverlap least = least_overlap(a, b);
-    // Slightly less than the axis tells, because that is rounded.
-    const double apart = -least.overlap * (1 - 0x1p-40) - a.radius - b.radius;
-    if (apart > upper_bound)
-        return {apart, {}, {}, least.normal};
+/// The gap of two boxes along a direction. Points are relative to a's centre, which is the origin.
+SolidGap gap_of_boxes(const RoundedBox& a, const RoundedBox& b, const LeastOverlap& least) {
     const double size = size_of_both(a, b);
     if (least.overlap < 0) {
         const Candidate nearest = nearest_features(a, b, least.normal);
@@ -363,10 +361,15 @@ SolidGap rounded_box_distance(const RoundedBox& a, const RoundedBox& b, double u
     if (const Vec3 along_a = half_of_segment(a); along_a != Vec3{})
         if (const Vec3 along_b = half_of_segment(b); along_b != Vec3{})
             return gap_of_segments(a, b, along_a, along_b);
+    const LeastOverlap least = least_overlap(a, b);
+    // Slightly less than the axis tells, because that is rounded.
+    const double apart = -least.overlap * (1 - 0x1p-40) - a.radius - b.radius;
+    if (apart > upper_bound)
+        return {apart, {}, {}, least.normal};
     // Seen from a's centre, corners are rounded no more than the difference of the centres.
     RoundedBox near_a = a, near_b = b;
     near_a.centre = {}, near_b.centre = b.centre - a.centre;
-    SolidGap gap = gap_of_boxes(near_a, near_b, upper_bound);
+    SolidGap gap = gap_of_boxes(near_a, near_b, least);
     gap.point_a = a.centre + gap.point_a, gap.point_b = a.centre + gap.point_b;
     return gap;
 }
