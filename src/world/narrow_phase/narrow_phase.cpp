@@ -271,6 +271,9 @@ template <typename Solid>
 bool meet(const Placed<Solid>& a, const PlacedCurved& b, PairWarmStart& warm_start) {
     return supports_meet(support_of(a), support_of(b), warm_start.direction);
 }
+/// Far more than the rounding of a gap of curved shapes, relative to their size.
+constexpr double kTouchRounding = 0x1p-40;
+
 /// The direction from which to search. A depth is searched for from scratch: where several motions
 /// are equally short, the one that is found must not depend on earlier queries.
 Vec3& first_direction(Depths depths, PairWarmStart& warm_start, Vec3& none) {
@@ -285,9 +288,20 @@ BodyGap measure(const PlacedSurface& a, const PlacedCurved& b, double upper_boun
 template <typename Solid>
 BodyGap measure(const Placed<Solid>& a, const PlacedCurved& b, double upper_bound, Depths depths,
                 PairWarmStart& warm_start) {
+    const SupportShape solid_a = support_of(a), solid_b = support_of(b);
     Vec3 none;
-    return solid_gap(support_of(a), support_of(b), upper_bound,
-                     first_direction(depths, warm_start, none));
+    BodyGap gap =
+        solid_gap(solid_a, solid_b, upper_bound, first_direction(depths, warm_start, none));
+    // Where rounding decides whether they touch, `collide` decides.
+    const double size = solid_a.reach + solid_a.radius + solid_b.reach + solid_b.radius +
+                        max_abs(solid_b.centre - solid_a.centre);
+    if (depths == Depths::yes && std::abs(gap.distance) <= kTouchRounding * size) {
+        none = {};
+        gap.distance = supports_meet(solid_a, solid_b, none)
+                           ? std::min(gap.distance, 0.0)
+                           : std::max(gap.distance, std::numeric_limits<double>::min());
+    }
+    return gap;
 }
 
 /// A half-space with anything.
@@ -373,12 +387,16 @@ bool touch(const PlacedBody& a, const PlacedBody& b, PairWarmStart& warm_start) 
 
 BodyGap gap_between(const PlacedBody& a, const PlacedBody& b, double upper_bound, Depths depths,
                     PairWarmStart& warm_start) {
-    return with_shapes(
+    BodyGap gap = with_shapes(
         a, b,
         [&](const auto& x, const auto& y) {
             return measure(x, y, upper_bound, depths, warm_start);
         },
-        [](const BodyGap& gap) { return turned_round(gap); });
+        [](const BodyGap& found) { return turned_round(found); });
+    // Bodies that share a point are not apart, even if rounding says so.
+    if (depths == Depths::yes && !(is_convex(a.shape) && is_convex(b.shape)))
+        gap.distance = std::min(gap.distance, 0.0);
+    return gap;
 }
 
 BodyGap signed_gap_between(const PlacedBody& a, const PlacedBody& b, double upper_bound,
