@@ -6,6 +6,7 @@
 #include "math/transform.h"
 #include "rigid/model/model_data.h"
 #include "rigid/solid/containment.h"
+#include "world/narrow_phase/convex_gap.h"
 #include "world/narrow_phase/core_gap.h"
 #include "world/narrow_phase/offset_surface.h"
 #include "world/narrow_phase/solid_gap.h"
@@ -83,28 +84,6 @@ BodyGap from_rigid(const Gap& gap) {
     // If the bodies overlap, moving b along the normal brings its point to a's point.
     const Vec3 way = gap.point_b - gap.point_a;
     result.normal = normalized_or_zero(gap.distance < 0 ? -way : way);
-    return result;
-}
-
-/// The gap of two convex solids; minus the depth if they overlap.
-BodyGap measure_solids(const Convex& a, const Transform& world_from_a, const Convex& b,
-                       const Transform& world_from_b, ConvexWarmStart& warm_start) {
-    ConvexDistanceOptions options;
-    options.warm_start = &warm_start;
-    const ConvexGap gap = distance(a, world_from_a, b, world_from_b, options);
-    BodyGap result;
-    result.distance = gap.distance;
-    result.point_a = gap.point_a, result.point_b = gap.point_b;
-    result.normal = normalized_or_zero(gap.point_b - gap.point_a);
-    if (gap.distance > 0)
-        return result;
-    const ConvexDepth depth =
-        penetration(a, world_from_a, b, world_from_b, {.warm_start = &warm_start});
-    if (depth.meet) {
-        result.distance = -depth.depth;
-        result.point_a = depth.point_a, result.point_b = depth.point_b;
-        result.normal = depth.direction;
-    }
     return result;
 }
 
@@ -204,7 +183,7 @@ BodyGap measure(const PlacedSurface& a, const PlacedConvex& b, double upper_boun
 
 BodyGap measure(const PlacedConvex& a, const PlacedConvex& b, double /*upper_bound*/,
                 Depths /*depths*/, PairWarmStart& warm_start) {
-    return measure_solids(a.shape.solid, a.world, b.shape.solid, b.world, warm_start.solids);
+    return convex_gap(a.shape.solid, a.world, b.shape.solid, b.world, warm_start.solids);
 }
 
 BodyGap measure(const PlacedConvex& a, const PlacedRounded& b, double /*upper_bound*/,
@@ -212,7 +191,7 @@ BodyGap measure(const PlacedConvex& a, const PlacedRounded& b, double /*upper_bo
     const RoundedBox solid = placed(b.shape, b.world);
     const Core core = core_of(solid);
     return with_radius(
-        measure_solids(a.shape.solid, a.world, core.convex, core.world, warm_start.solids),
+        convex_gap(a.shape.solid, a.world, core.convex, core.world, warm_start.solids),
         solid.radius);
 }
 

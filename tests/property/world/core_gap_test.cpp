@@ -82,6 +82,48 @@ TEST(CoreGap, ACoreOnTheSurfaceIsAsDeepAsItsRadius) {
     EXPECT_GT(rounded, many(800) / 10);
 }
 
+TEST(CoreGap, ACoreOnAFaceOfAConvexBodyLeavesAlongTheNormal) {
+    Random random(5407);
+    std::vector<KindOfBody> kinds = kinds_of_bodies();
+    std::erase_if(kinds, [](const KindOfBody& kind) {
+        return !std::holds_alternative<Convex>(kind.shape) &&
+               !std::holds_alternative<Box3>(kind.shape);
+    });
+    int checked = 0;
+    for (int round = 0; round < many(2000); ++round) {
+        SCOPED_TRACE(round);
+        const KindOfBody& kind = kinds[static_cast<std::size_t>(round) % kinds.size()];
+        const auto* hull = std::get_if<Convex>(&kind.shape);
+        const Box3 box = hull != nullptr ? Box3{} : std::get<Box3>(kind.shape);
+        const Model surface(hull != nullptr ? hull->mesh() : box_mesh(box.lower, box.upper));
+        const double far = round % 3 == 2 ? 1000 : round % 3, radius = .25;
+        const Pose pose = random.pose(far);
+        const auto triangle = static_cast<std::size_t>(
+            random.integer(0, static_cast<int>(surface.mesh().triangles.size()) - 1));
+        const Segment axis{point_on(random, surface, pose, triangle),
+                           point_on(random, surface, pose, triangle)};
+        if (axis.a == axis.b)
+            continue;
+        const double tolerance = 64 * 0x1p-52 * (4 + 3 * far);
+        for (const AnyShape& core :
+             {AnyShape(Sphere{axis.a, radius}), AnyShape(Capsule{axis, radius})}) {
+            World world;
+            add(world, kind.shape, pose);
+            const BodyId body = add(world, core, {});
+            const auto gaps = world.penetration();
+            ASSERT_EQ(gaps.size(), 1U);
+            EXPECT_NEAR(gaps[0].distance, -radius, tolerance);
+            expect_on_both(gaps[0], core, surface, pose, tolerance);
+            world.move(body, {-gaps[0].distance * gaps[0].normal, {1, 0, 0, 0}});
+            const auto after = world.within(1);
+            ASSERT_EQ(after.size(), 1U);
+            EXPECT_NEAR(after[0].distance, 0, tolerance);
+            ++checked;
+        }
+    }
+    EXPECT_GT(checked, many(2000));
+}
+
 /// The signed distance of a point from a closed model: by all triangles, and by the parity of a ray.
 double from_solid(const Model& model, const Pose& pose, const Vec3& p) {
     const double distance = distance_from_surface(model, pose, p);
