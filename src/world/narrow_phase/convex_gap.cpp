@@ -48,18 +48,6 @@ Vec3 direction_of_touching(const Convex& a, const Transform& world_from_a, const
     return depth.meet && depth.depth > 0 && is_along ? depth.direction : normalized_or_zero(way);
 }
 
-/// The witness points of solids that overlap, if those of the search are not a depth apart along its
-/// direction: the closest points after the motion and slightly more.
-void find_deepest_points(const Convex& a, const Transform& world_from_a, const Convex& b,
-                         const Transform& world_from_b, BodyGap& gap) {
-    const MiddleAndReach of_a(a, world_from_a), of_b(b, world_from_b);
-    const Vec3 way = (kSlightMotion * (of_a.reach + of_b.reach) - gap.distance) * gap.normal;
-    Transform moved = world_from_b;
-    moved.m[9] += way.x, moved.m[10] += way.y, moved.m[11] += way.z;
-    const ConvexGap parted = distance(a, world_from_a, b, moved);
-    gap.point_a = parted.point_a, gap.point_b = parted.point_b - way;
-}
-
 } // namespace
 
 BodyGap convex_gap(const Convex& a, const Transform& world_from_a, const Convex& b,
@@ -85,9 +73,6 @@ BodyGap convex_gap(const Convex& a, const Transform& world_from_a, const Convex&
     result.distance = -depth.depth;
     result.point_a = depth.point_a, result.point_b = depth.point_b;
     result.normal = depth.direction;
-    const Vec3 off = depth.point_b - depth.point_a + depth.depth * depth.direction;
-    if (length(off) > kClearOfTouching * size)
-        find_deepest_points(a, world_from_a, b, world_from_b, result);
     return result;
 }
 

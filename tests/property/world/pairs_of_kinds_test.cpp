@@ -191,7 +191,8 @@ TEST(PairsOfKinds, AllQueriesTellOneSignedDistance) {
             only(world_of({pair.b, pair.a, pair.pose_b, pair.pose_a}).penetration());
         ASSERT_TRUE(swapped.has_value());
         if (std::isfinite(deep->distance)) {
-            EXPECT_NEAR(swapped->distance, deep->distance, 1e-9);
+            const bool curved = is_curved(pair.a) || is_curved(pair.b);
+            EXPECT_NEAR(swapped->distance, deep->distance, curved ? 1e-6 : 1e-9);
         }
     });
     EXPECT_GT(meeting, 500);
