@@ -38,13 +38,23 @@ struct WorldOptions {
     std::function<bool(BodyId a, BodyId b)> filter{};
 };
 
-/// The distance or penetration of two bodies, world frame.
+/// The signed distance of two bodies, world frame. All queries tell the same one of a pair:
+///
+/// - If the bodies share no point, the distance of their nearest points. A model is its surface
+///   here, also around a body that lies inside it.
+/// - If they share a point, minus the depth. A closed model is a solid here. The depth of convex
+///   bodies is the length of their shortest separating motion. That of a closed model and a ball is
+///   the radius and, where the centre lies inside, the centre's distance from the surface. For the
+///   other pairs with a model, World::penetration says which lower bound of that motion it is.
 struct BodyGap {
     BodyId a, b;
-    /// 0 if the bodies touch; negative if they penetrate: minus the depth.
-    double distance = 0;
-    Vec3 point_a, point_b; ///< witness points on the bodies, that far apart
-    Vec3 normal;           ///< unit vector from a to b; zero where none is known
+    double distance = 0; ///< 0 if the bodies touch
+    /// Witness points on the bodies: point_b = point_a + distance * normal, to rounding.
+    Vec3 point_a, point_b;
+    /// Unit vector from a to b. Bodies that penetrate: b moves along it. Zero where none is known:
+    /// for models that only touch, and for the depth of open surfaces, whose witness points are one
+    /// common point.
+    Vec3 normal;
     std::uint32_t triangle_a = 0, triangle_b = 0; ///< of models; else 0
     /// exact: to rounding. bound_only: bodies that meet are at least this deep in each other.
     Status status = Status::exact;
@@ -176,18 +186,22 @@ public:
     /// Accuracy    whether bodies meet: as `collide`. The depth is correct to rounding for convex
     ///             bodies, spheres, capsules and boxes, and for a model with a sphere. For two
     ///             models, and for a model with a box or a convex body, it is that of `penetration`
-    ///             (bound_only). For a model and a capsule whose axis crosses its surface, it is at
-    ///             least the radius (bound_only). For cylinders, cones and ellipsoids it is correct
+    ///             (bound_only). For a closed model and a capsule, it is the radius and the distance
+    ///             from the surface of the point of the axis that lies deepest inside; where the
+    ///             capsule's surface has no point so deep, and where the axis crosses an open
+    ///             surface, the depth in one of the triangles that it crosses (bound_only). For
+    ///             cylinders, cones and ellipsoids it is correct
     ///             to 1e-12 of the size of both bodies; with a model, it is that of one of its
     ///             triangles (bound_only). For a half-space it is correct to rounding. Two
     ///             half-spaces that meet are infinitely deep in each other, unless their normals are
     ///             opposite.
     std::vector<BodyGap> penetration(const Progress& progress = {});
-    /// Finds all pairs of bodies that are at most `distance` apart, and their distances, as exact
-    /// as `distance`. The distance is 0 for models that meet, and negative for other bodies that
-    /// do.
+    /// Finds all pairs of bodies that are at most `distance` apart, and their signed distances
+    /// (BodyGap).
     ///
+    /// Accuracy    bodies that share no point: as exact as `distance`. Others: as `penetration`.
     /// Errors      Error{bad_argument} if the distance is negative or not finite.
+    /// Cost        for models that meet, that of their depth.
     std::vector<BodyGap> within(double distance, const Progress& progress = {});
 
     /// Finds the contacts of all pairs of bodies that are at most `margin` apart: for each region

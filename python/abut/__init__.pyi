@@ -4435,8 +4435,8 @@ class World:
     def penetration(self, *, progress: _Progress = ...) -> np.recarray[Any, Any]:
         """All pairs that share a point, with how deep they go into each other: a record array of BodyGap."""
     def within(self, distance: float, *, progress: _Progress = ...) -> np.recarray[Any, Any]:
-        """All pairs at most `distance` apart, a length: a record array of BodyGap. Error (bad_argument) if it is
-        negative.
+        """All pairs at most `distance` apart, a length, and their signed distances: a record array of BodyGap. Pairs that share
+        a point are as in penetration. Error (bad_argument) if the distance is negative.
         """
     def time_of_impact(self, motions: dict[int, Motion] | Iterable[tuple[int, Motion]], *, absolute_error: float | None = ..., max_steps: int | None = ..., progress: _Progress = ...) -> np.recarray[Any, Any]:
         """When bodies that move first meet, each pair once: a record array of BodyImpact.

@@ -181,6 +181,19 @@ std::optional<NearestBoundary> decide_depth(const Bodies& bodies, const NearestB
     result.direction = -decided->normal;
 }
 
+/// Replaces witness points that are not a depth apart along the direction: where rounding decides
+/// which of nearly coplanar faces of the difference is the nearest, the origin's foot may lie
+/// outside of it. After the motion and slightly more, the closest points are as far apart as that.
+[[gnu::noinline, gnu::cold]] void replace_witness(const Convex& a, const Transform& world_from_a,
+                                                  const Convex& b, const Transform& world_from_b,
+                                                  double slight, ConvexDepth& result) {
+    const Vec3 way = (result.depth + slight) * result.direction;
+    Transform moved = world_from_b;
+    moved.m[9] += way.x, moved.m[10] += way.y, moved.m[11] += way.z;
+    const ConvexGap parted = distance(a, world_from_a, b, moved);
+    result.point_a = parted.point_a, result.point_b = parted.point_b - way;
+}
+
 } // namespace
 
 ConvexDepth penetration(const Convex& a, const Transform& world_from_a, const Convex& b,
@@ -217,6 +230,11 @@ ConvexDepth penetration(const Convex& a, const Transform& world_from_a, const Co
     result.point_b = origin + result.point_b;
     if (!is_proven(bodies, *nearest))
         settle_depth(bodies, *nearest, warm_start, result);
+    // A share of the size that is far above rounding, and one that is far above that.
+    const double off = 0x1p12 * (rounding + world_rounding(pair)), slight = 0x1p30 * rounding;
+    if (result.meet &&
+        length_sq(result.point_b - result.point_a + result.depth * result.direction) > off * off)
+        replace_witness(a, world_from_a, b, world_from_b, slight, result);
     return result;
 }
 

@@ -16,6 +16,14 @@ Vec3 unit_axis(LeastOverlap::Kind kind, const Vec3& of_a, const Vec3& of_b) {
     return (1 / length(across)) * across;
 }
 
+/// Half of the box's extent along a direction.
+double reach_along(const RoundedBox& box, const Vec3& direction) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+        sum += std::abs(dot(direction, box.axis[k])) * box.half[k];
+    return sum;
+}
+
 } // namespace
 
 // All axes share the scalar products of the boxes' own axes.
@@ -68,6 +76,10 @@ LeastOverlap least_overlap(const RoundedBox& a, const RoundedBox& b) {
         }
     const Vec3 along = unit_axis(least.kind, a.axis[best_i], b.axis[best_k]);
     least.normal = best_way < 0 ? -along : along;
+    // The axis of nearly parallel edges is rounded, and so was what the sums above tell about it.
+    // About the rounded axis, these sums are right.
+    if (least.kind == Kind::edges)
+        least.overlap = reach_along(a, along) + reach_along(b, along) - std::abs(dot(d, along));
     return least;
 }
 

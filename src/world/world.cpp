@@ -237,8 +237,8 @@ std::vector<BodyGap> World::within(double distance, const Progress& progress) {
             PairWarmStart warm_start;
             // If the true distance exceeds the bound, the result may be the bound itself. The bound
             // is therefore just above `distance`.
-            BodyGap gap = gap_between(data_->placed(pair.a()), data_->placed(pair.b()),
-                                      std::nextafter(distance, HUGE_VAL), Depths::no, warm_start);
+            BodyGap gap = signed_gap_between(data_->placed(pair.a()), data_->placed(pair.b()),
+                                             std::nextafter(distance, HUGE_VAL), warm_start);
             if (gap.distance > distance)
                 return std::nullopt;
             std::tie(gap.a, gap.b) = std::pair(data_->id_of(pair.a()), data_->id_of(pair.b()));

@@ -250,9 +250,9 @@ void add_world_queries(py::class_<Bodies>& type) {
                 }));
             },
             py::arg("distance"), py::kw_only(), py::arg("progress") = py::none(),
-            "All pairs at most `distance` apart, a length: a record array of BodyGap. Error "
-            "(bad_argument) if it is\n"
-            "negative.")
+            "All pairs at most `distance` apart, a length, and their signed distances: a record "
+            "array of BodyGap. Pairs that share\n"
+            "a point are as in penetration. Error (bad_argument) if the distance is negative.")
         .def(
             "time_of_impact",
             [](Bodies& self, const py::object& motions, std::optional<double> absolute_error,

@@ -72,8 +72,9 @@ void append_one_point(const PlacedBody& a, const PlacedBody& b, double margin,
                       PairWarmStart& warm_start, std::vector<ContactManifold>& manifolds) {
     if (margin == 0 && !touch(a, b, warm_start))
         return;
-    const double bound = margin == 0 ? HUGE_VAL : std::nextafter(margin, HUGE_VAL);
-    const BodyGap gap = gap_between(a, b, bound, Depths::yes, warm_start);
+    const BodyGap gap =
+        margin == 0 ? gap_between(a, b, HUGE_VAL, Depths::yes, warm_start)
+                    : signed_gap_between(a, b, std::nextafter(margin, HUGE_VAL), warm_start);
     if (margin > 0 && gap.distance > margin)
         return;
     ContactManifold& manifold = manifolds.emplace_back();

@@ -7,11 +7,15 @@
 #include "rigid/model/model_data.h"
 #include "rigid/solid/containment.h"
 #include "world/narrow_phase/contact_rounding.h"
+#include "world/narrow_phase/convex_gap.h"
+#include "world/narrow_phase/core_gap.h"
 #include "world/narrow_phase/offset_surface.h"
 #include "world/narrow_phase/solid_gap.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <tuple>
 #include <type_traits>
 
 // The table of shape pairs: an overload of `meet` and of `measure` for each pair of kinds. Surfaces
@@ -81,10 +85,6 @@ Core core_of(const RoundedBox& solid) {
             offset_surface_of(solid).body_from_surface};
 }
 
-bool has_inside(const Model& model) {
-    return model.data().solid().closed;
-}
-
 BodyGap from_rigid(const Gap& gap) {
     BodyGap result{{},          {}, gap.distance,   gap.point_a,
                    gap.point_b, {}, gap.triangle_a, gap.triangle_b,
@@ -92,28 +92,6 @@ BodyGap from_rigid(const Gap& gap) {
     // If the bodies overlap, moving b along the normal brings its point to a's point.
     const Vec3 way = gap.point_b - gap.point_a;
     result.normal = normalized_or_zero(gap.distance < 0 ? -way : way);
-    return result;
-}
-
-/// The gap of two convex solids; minus the depth if they overlap.
-BodyGap measure_solids(const Convex& a, const Transform& world_from_a, const Convex& b,
-                       const Transform& world_from_b, ConvexWarmStart& warm_start) {
-    ConvexDistanceOptions options;
-    options.warm_start = &warm_start;
-    const ConvexGap gap = distance(a, world_from_a, b, world_from_b, options);
-    BodyGap result;
-    result.distance = gap.distance;
-    result.point_a = gap.point_a, result.point_b = gap.point_b;
-    result.normal = normalized_or_zero(gap.point_b - gap.point_a);
-    if (gap.distance > 0)
-        return result;
-    const ConvexDepth depth =
-        penetration(a, world_from_a, b, world_from_b, {.warm_start = &warm_start});
-    if (depth.meet) {
-        result.distance = -depth.depth;
-        result.point_a = depth.point_a, result.point_b = depth.point_b;
-        result.normal = depth.direction;
-    }
     return result;
 }
 
@@ -192,8 +170,21 @@ bool meet(const PlacedRounded& a, const PlacedRounded& b, PairWarmStart& /*warm_
                .distance <= touching;
 }
 
+/// An order of two placed models that does not depend on which of them is a: by their sizes, then by
+/// their placements.
+bool is_before(const PlacedSurface& a, const PlacedSurface& b) {
+    const Mesh &mesh_a = a.shape.mesh(), &mesh_b = b.shape.mesh();
+    return std::tuple(mesh_a.triangles.size(), mesh_a.positions.size(), a.world.m) <
+           std::tuple(mesh_b.triangles.size(), mesh_b.positions.size(), b.world.m);
+}
+BodyGap turned_round(const BodyGap& gap);
+
 BodyGap measure(const PlacedSurface& a, const PlacedSurface& b, double upper_bound, Depths depths,
                 PairWarmStart& warm_start) {
+    // A search for a depth ends within its accuracy of it, at a number that the order decides.
+    if (depths == Depths::yes && is_before(b, a))
+        return turned_round(
+            measure_models(b.shape, b.world, a.shape, a.world, upper_bound, depths, warm_start));
     return measure_models(a.shape, a.world, b.shape, b.world, upper_bound, depths, warm_start);
 }
 
@@ -209,7 +200,7 @@ BodyGap measure(const PlacedSurface& a, const PlacedConvex& b, double upper_boun
 
 BodyGap measure(const PlacedConvex& a, const PlacedConvex& b, double /*upper_bound*/,
                 Depths /*depths*/, PairWarmStart& warm_start) {
-    return measure_solids(a.shape.solid, a.world, b.shape.solid, b.world, warm_start.solids);
+    return convex_gap(a.shape.solid, a.world, b.shape.solid, b.world, warm_start.solids);
 }
 
 BodyGap measure(const PlacedConvex& a, const PlacedRounded& b, double /*upper_bound*/,
@@ -217,7 +208,7 @@ BodyGap measure(const PlacedConvex& a, const PlacedRounded& b, double /*upper_bo
     const RoundedBox solid = placed(b.shape, b.world);
     const Core core = core_of(solid);
     return with_radius(
-        measure_solids(a.shape.solid, a.world, core.convex, core.world, warm_start.solids),
+        convex_gap(a.shape.solid, a.world, core.convex, core.world, warm_start.solids),
         solid.radius);
 }
 
@@ -234,37 +225,14 @@ bool any_component_inside(const PlacedSurface& a, const RoundedBox& box) {
     });
 }
 
-BodyGap measure_point(const PlacedSurface& a, const Vec3& centre, double upper_bound,
-                      Depths depths) {
-    NearestOptions options;
-    options.upper_bound = upper_bound;
-    options.signed_distance = depths == Depths::yes && has_inside(a.shape);
-    const Nearest found = nearest(a.shape, a.world, centre, options);
-    BodyGap gap;
-    gap.distance = found.distance, gap.status = found.status;
-    gap.point_a = found.point, gap.point_b = centre, gap.triangle_a = found.triangle;
-    const Vec3 way = centre - found.point;
-    gap.normal = normalized_or_zero(found.distance < 0 ? -way : way);
-    return gap;
-}
-
 BodyGap measure(const PlacedSurface& a, const PlacedRounded& b, double upper_bound, Depths depths,
                 PairWarmStart& warm_start) {
     const RoundedBox solid = placed(b.shape, b.world);
-    // Enlarged to cover the rounding when the radius is subtracted again.
-    const double bound = (std::max(upper_bound, 0.0) + solid.radius) * (1 + 0x1p-50);
     switch (dimension(solid)) {
     case 0:
-        return with_radius(measure_point(a, solid.centre, bound, depths), solid.radius);
-    case 1: {
-        DistanceOptions options;
-        options.upper_bound = bound;
-        BodyGap core = from_rigid(distance(a.shape, a.world, axis_of(solid), options));
-        // If the axis crosses the surface, the radius is only part of the depth.
-        if (core.distance == 0)
-            core.status = Status::bound_only;
-        return with_radius(core, solid.radius);
-    }
+        return ball_gap(a.shape, a.world, {solid.centre, solid.radius}, upper_bound, depths);
+    case 1:
+        return capsule_gap(a.shape, a.world, {axis_of(solid), solid.radius}, upper_bound, depths);
     default:
         const OffsetSurface faces = offset_surface_of(b.shape);
         BodyGap gap = measure_models(a.shape, a.world, faces.surface,
@@ -308,14 +276,37 @@ bool meet(const Placed<Solid>& a, const PlacedCurved& b, PairWarmStart& warm_sta
         last = direction;
     return gap.distance <= touching;
 }
+/// Far more than the rounding of a gap of curved shapes, relative to their size.
+constexpr double kTouchRounding = 0x1p-40;
+
+/// The direction from which to search. A depth is searched for from scratch: where several motions
+/// are equally short, the one that is found must not depend on earlier queries.
+Vec3& first_direction(Depths depths, PairWarmStart& warm_start, Vec3& none) {
+    return depths == Depths::yes ? none : warm_start.direction;
+}
 BodyGap measure(const PlacedSurface& a, const PlacedCurved& b, double upper_bound, Depths depths,
                 PairWarmStart& warm_start) {
-    return surface_gap(a.shape, a.world, support_of(b), upper_bound, depths, warm_start.direction);
+    Vec3 none;
+    return surface_gap(a.shape, a.world, support_of(b), upper_bound, depths,
+                       first_direction(depths, warm_start, none));
 }
 template <typename Solid>
-BodyGap measure(const Placed<Solid>& a, const PlacedCurved& b, double upper_bound,
-                Depths /*depths*/, PairWarmStart& warm_start) {
-    return solid_gap(support_of(a), support_of(b), upper_bound, warm_start.direction);
+BodyGap measure(const Placed<Solid>& a, const PlacedCurved& b, double upper_bound, Depths depths,
+                PairWarmStart& warm_start) {
+    const SupportShape solid_a = support_of(a), solid_b = support_of(b);
+    Vec3 none;
+    BodyGap gap =
+        solid_gap(solid_a, solid_b, upper_bound, first_direction(depths, warm_start, none));
+    // Where rounding decides whether they touch, `collide` decides.
+    const double size = solid_a.reach + solid_a.radius + solid_b.reach + solid_b.radius +
+                        max_abs(solid_b.centre - solid_a.centre);
+    if (depths == Depths::yes && std::abs(gap.distance) <= kTouchRounding * size) {
+        none = {};
+        gap.distance = supports_meet(solid_a, solid_b, none)
+                           ? std::min(gap.distance, 0.0)
+                           : std::max(gap.distance, std::numeric_limits<double>::min());
+    }
+    return gap;
 }
 
 /// A half-space with anything.
@@ -424,12 +415,31 @@ BodyGap gap_between(const PlacedBody& a, const PlacedBody& b, double upper_bound
         a, b,
         [&](const auto& x, const auto& y) { return measure(x, y, bound, depths, warm_start); },
         [](const BodyGap& gap_of_b) { return turned_round(gap_of_b); });
+    // Bodies that share a point are not apart, even if rounding says so.
+    if (depths == Depths::yes && !(is_convex(a.shape) && is_convex(b.shape)))
+        gap.distance = std::min(gap.distance, 0.0);
     if (rounding == 0 || !(std::abs(gap.distance) <= 2 * rounding))
         return gap;
     if (touch(a, b, warm_start))
         gap.distance = std::min(gap.distance, 0.0);
     else
         gap.distance = std::max(gap.distance, rounding);
+    return gap;
+}
+
+BodyGap signed_gap_between(const PlacedBody& a, const PlacedBody& b, double upper_bound,
+                           PairWarmStart& warm_start) {
+    if (is_convex(a.shape) && is_convex(b.shape))
+        return gap_between(a, b, upper_bound, Depths::yes, warm_start);
+    BodyGap gap = gap_between(a, b, upper_bound, Depths::no, warm_start);
+    if (gap.distance > upper_bound)
+        return gap;
+    // From scratch, as `collide` asks the first time.
+    PairWarmStart none;
+    if (touch(a, b, none))
+        return gap_between(a, b, HUGE_VAL, Depths::yes, warm_start);
+    // A gap that rounding hides is still a gap.
+    gap.distance = std::max(gap.distance, std::numeric_limits<double>::min());
     return gap;
 }
 

@@ -43,8 +43,8 @@ bool touch(const PlacedBody& a, const PlacedBody& b, PairWarmStart& warm_start);
 
 /// What gap_between returns for bodies that overlap.
 enum class Depths : std::uint8_t {
-    no,  ///< 0 is sufficient for models
-    yes, ///< minus the depth
+    no,  ///< for a model: 0, or a number that is not above 0
+    yes, ///< minus the depth; a pair with a model must share a point
 };
 
 /// The gap between two bodies. The ids are not set.
@@ -52,6 +52,14 @@ enum class Depths : std::uint8_t {
 /// In          upper_bound: if the gap is larger, any distance above the bound may be returned.
 BodyGap gap_between(const PlacedBody& a, const PlacedBody& b, double upper_bound, Depths depths,
                     PairWarmStart& warm_start);
+
+/// The signed distance of two bodies, as World tells it: if they share no point, the distance of
+/// their nearest points, where a model is its surface; else minus the depth, where a closed model is
+/// a solid. The ids are not set.
+///
+/// In          upper_bound: as above.
+BodyGap signed_gap_between(const PlacedBody& a, const PlacedBody& b, double upper_bound,
+                           PairWarmStart& warm_start);
 
 /// Whether the kind of shape is convex. Models count as not convex.
 inline bool is_convex(const BodyShape& shape) {

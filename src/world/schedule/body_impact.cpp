@@ -98,7 +98,7 @@ private:
     }
 
     [[nodiscard]] Impact search(ImpactSteps& steps, std::uint64_t most_steps) const {
-        double time = 0;
+        double time = 0, tolerance = tolerance_;
         BodyGap gap = gap_at(0);
         while (steps.count() < most_steps) {
             if (!steps.take(time))
@@ -107,8 +107,13 @@ private:
             // A search for the distance of curved shapes may end before it is proven.
             const double proven =
                 along_normal_ && is_any_curved_ ? std::min(gap.distance, apart) : gap.distance;
-            if (proven <= tolerance_)
-                return hit(time, gap);
+            if (proven <= tolerance) {
+                const double contact = contact_after(time, gap);
+                if (contact <= 1 || proven <= 4 * error_)
+                    return hit(time, gap, contact);
+                // They may pass each other. What follows shows it, or brings them nearer.
+                tolerance = std::max(0.25 * proven, 4 * error_);
+            }
             if (plane_a_ && plane_b_ && turning_plane_)
                 break; // they meet far away
             const Approach fast{proven - error_, fastest_approach()};
@@ -123,14 +128,12 @@ private:
             if (time + best.time() > 1)
                 return miss();
             // Stops short by half of the tolerance, so that the reported time is before contact.
-            best.free -= 0.5 * tolerance_;
-            time += std::max(best.time(), fast.time() - 0.5 * tolerance_ / fast.speed) *
-                    (1 - kRounding);
+            best.free -= 0.5 * tolerance;
+            time +=
+                std::max(best.time(), fast.time() - 0.5 * tolerance / fast.speed) * (1 - kRounding);
             gap = gap_at(time);
         }
-        Impact impact = hit(time, gap);
-        impact.status = Status::bound_only;
-        return impact;
+        return hit(time, gap, contact_after(time, gap));
     }
 
     [[nodiscard]] BodyGap gap_at(double time) const {
@@ -167,24 +170,48 @@ private:
 
     [[nodiscard]] static Impact miss() { return {}; }
 
-    [[nodiscard]] Impact hit(double time, const BodyGap& gap) const {
+    /// In          contact: a time at which the bodies share a point; none: infinite.
+    [[nodiscard]] Impact hit(double time, const BodyGap& gap, double contact) const {
         Impact impact;
         impact.meet = true, impact.time = time, impact.gap = std::max(gap.distance, 0.0);
         impact.point_a = gap.point_a, impact.point_b = gap.point_b, impact.normal = gap.normal;
         impact.triangle_a = gap.triangle_a, impact.triangle_b = gap.triangle_b;
-        impact.status = Status::bound_only;
-        for (const double contact : {time, time_beyond(time, gap)})
-            if (contact <= 1 && gap_at(contact).distance <= 0) {
-                impact.contact_time = contact;
-                impact.status = impact.gap <= asked_tolerance_ ? Status::exact : Status::converged;
-                break;
-            }
+        impact.contact_time = contact;
+        impact.status = contact > 1                      ? Status::bound_only
+                        : impact.gap <= asked_tolerance_ ? Status::exact
+                                                         : Status::converged;
         return impact;
     }
-    /// A time slightly after the gap may have closed.
-    [[nodiscard]] double time_beyond(double time, const BodyGap& gap) const {
-        const double speed = closing_speed(gap);
-        return speed > 0 ? std::min(1.0, time + 2 * tolerance_ / speed) : 1;
+
+    /// A time at which the bodies share a point, soon after their gap has become short. Infinite if
+    /// none is found.
+    [[nodiscard]] double contact_after(double time, const BodyGap& gap) const {
+        if (gap.distance <= 0)
+            return time;
+        // The present speed of the witness points predicts the time, unless they turn away.
+        const double closing = dot(velocity_at(a_.motion, gap.point_a, time) -
+                                       velocity_at(b_.motion, gap.point_b, time),
+                                   gap.normal);
+        double step = 0;
+        if (closing > 0)
+            for (const double part : {1.001, 1.1, 2.0, 8.0}) {
+                step = (part * gap.distance + 2 * error_) / closing;
+                if (is_contact(time + step))
+                    return std::min(time + step, 1.0);
+            }
+        // No contact can be earlier than at the greatest speed. From there, times at twice the last
+        // distance find every contact that lasts as long as it lets wait.
+        for (step = std::max(step, gap.distance / fastest_approach()); step < 1; step *= 2)
+            if (is_contact(time + step))
+                return std::min(time + step, 1.0);
+        return is_contact(1) ? 1 : std::numeric_limits<double>::infinity();
+    }
+    [[nodiscard]] bool is_contact(double time) const {
+        return gap_at(std::min(time, 1.0)).distance <= 0;
+    }
+    [[nodiscard]] static Vec3 velocity_at(const Motion& motion, const Vec3& point, double time) {
+        return motion.velocity +
+               cross(motion.angular_velocity, point - (motion.centre + time * motion.velocity));
     }
 
     const MovingBody &a_, &b_;
