@@ -283,8 +283,8 @@ bool meet(const Placed<Solid>& a, const PlacedCurved& b, PairWarmStart& warm_sta
     return supports_meet(support_of(a), support_of(b), warm_start.direction);
 }
 BodyGap measure(const PlacedSurface& a, const PlacedCurved& b, double upper_bound, Depths depths,
-                PairWarmStart& warm_start) {
-    return surface_gap(a.shape, a.world, support_of(b), upper_bound, depths, warm_start.direction);
+                PairWarmStart& /*warm_start*/) {
+    return surface_gap(a.shape, a.world, support_of(b), upper_bound, depths);
 }
 template <typename Solid>
 BodyGap measure(const Placed<Solid>& a, const PlacedCurved& b, double upper_bound,
