@@ -46,7 +46,9 @@ struct BodyGap {
     Vec3 point_a, point_b; ///< witness points on the bodies, that far apart
     Vec3 normal;           ///< unit vector from a to b; zero where none is known
     std::uint32_t triangle_a = 0, triangle_b = 0; ///< of models; else 0
-    /// exact: to rounding. bound_only: bodies that meet are at least this deep in each other.
+    /// exact: to rounding. bound_only: with a model, bodies that meet are at least this deep in each
+    /// other; for two solids, moving b by the depth along the normal separates them, but no proof
+    /// excludes a slightly shorter motion.
     Status status = Status::exact;
 };
 
@@ -165,7 +167,8 @@ public:
     ///             models, and for a model with a box or a convex body, it is that of `penetration`
     ///             (bound_only). For a model and a capsule whose axis crosses its surface, it is at
     ///             least the radius (bound_only). For cylinders, cones and ellipsoids it is correct
-    ///             to 1e-12 of the size of both bodies; with a model, it is that of one of its
+    ///             to 1e-12 of the size of both bodies, unless nearly equal motions along very many
+    ///             directions separate them (bound_only); with a model, it is that of one of its
     ///             triangles (bound_only). For a half-space it is correct to rounding. Two
     ///             half-spaces that meet are infinitely deep in each other, unless their normals are
     ///             opposite.
