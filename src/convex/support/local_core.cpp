@@ -1,6 +1,10 @@
 #include "convex/support/local_core.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 
 namespace abut {
 
@@ -35,14 +39,17 @@ void place_on_box(LocalCore& core, const Vec3& at, const Vec3& direction) {
         const bool inside = std::abs(along) < half * (1 - kBorder) &&
                             std::abs(dot(box.axis[k], direction)) <= kAgreement;
         core.fixed = core.fixed + (inside ? along : with_sign(half, along)) * box.axis[k];
-        if (inside)
-            add_rule(core, box.axis[k], 0, direction);
+        if (!inside)
+            continue;
+        add_rule(core, box.axis[k], 0, direction);
+        core.room = std::min(core.room, half - std::abs(along));
     }
 }
 
 /// The face of a cylinder's or cone's end, at this height.
 void place_on_disc(LocalCore& core, const Local& at, double height, const Vec3& direction) {
     core.fixed = from_axes(*core.shape, {at.x, at.y, height});
+    core.room = core.shape->half[0] - std::hypot(at.x, at.y);
     add_rule(core, core.shape->axis[0], 0, direction);
     add_rule(core, core.shape->axis[1], 0, direction);
 }
@@ -56,8 +63,10 @@ void place_on_cylinder(LocalCore& core, const Local& at, const Vec3& direction) 
     core.rim = 1;
     const bool on_side = std::abs(d.z) <= kAgreement && std::abs(at.z) < half * (1 - kBorder);
     core.fixed = (on_side ? at.z : with_sign(half, at.z)) * cylinder.axis[2];
-    if (on_side)
-        add_rule(core, cylinder.axis[2], 0, direction);
+    if (!on_side)
+        return;
+    add_rule(core, cylinder.axis[2], 0, direction);
+    core.room = half - std::abs(at.z);
 }
 
 void place_on_cone(LocalCore& core, const Local& at, const Vec3& direction) {
@@ -73,6 +82,7 @@ void place_on_cone(LocalCore& core, const Local& at, const Vec3& direction) {
     if (std::abs(d.z - slope) <= kAgreement && down > kBorder && down < 1 - kBorder) {
         core.rim = down, core.fixed = ((1 - 2 * down) * half) * cone.axis[2];
         add_rule(core, cone.axis[2], slope, direction);
+        core.room = std::min(down, 1 - down) * std::hypot(radius, 2 * half);
         return;
     }
     core.rim = down < 0.5 ? 0 : 1;
@@ -92,6 +102,10 @@ void place_on_ellipsoid(LocalCore& core, const Vec3& at, const Vec3& direction) 
     if (!flat || !(inside < 1 - kBorder))
         return;
     core.curved = false, core.fixed = at;
+    double least = std::numeric_limits<double>::infinity();
+    for (const double half : ellipsoid.half)
+        least = half > 0 ? std::min(least, half) : least;
+    core.room = (1 - std::sqrt(inside)) * least;
     for (std::size_t k = 0; k < 3; ++k)
         if (ellipsoid.half[k] > 0)
             add_rule(core, ellipsoid.axis[k], 0, direction);
@@ -102,15 +116,27 @@ void place_on_corners(LocalCore& core, PairSide side, const SupportSimplex& near
                       const Vec3& direction) {
     constexpr double kNoWeight = 1e-7;
     core.fixed = at;
-    std::optional<Vec3> first;
+    std::array<Vec3, 4> corner;
+    std::array<double, 4> weight{};
+    std::size_t count = 0;
     for (std::uint32_t i = 0; i < nearest.count; ++i) {
         if (!(nearest.weights[i] > kNoWeight))
             continue;
-        const DifferencePoint& corner = nearest.corners[i];
-        const Vec3 p = side == PairSide::a ? corner.a : corner.b;
-        if (first && p != *first)
-            add_rule(core, normalized_or_zero(p - *first), 0, direction);
-        first = first.value_or(p);
+        const Vec3 p = side == PairSide::a ? nearest.corners[i].a : nearest.corners[i].b;
+        const std::size_t k = static_cast<std::size_t>(
+            std::find(corner.begin(), corner.begin() + static_cast<std::ptrdiff_t>(count), p) -
+            corner.begin());
+        corner[k] = p, weight[k] += nearest.weights[i];
+        count = std::max(count, k + 1);
+    }
+    for (std::size_t i = 1; i < count; ++i)
+        add_rule(core, normalized_or_zero(corner[i] - corner[0]), 0, direction);
+    // The weight of a corner is the point's height above the opposite side, relative to the corner's.
+    for (std::size_t i = 0; i < count && count > 1; ++i) {
+        const Vec3 &next = corner[(i + 1) % count], way = corner[i] - next,
+                   edge = normalized_or_zero(corner[(i + 2) % count] - next);
+        const double height = count == 2 ? length(way) : length(cross(way, edge));
+        core.room = std::min(core.room, weight[i] * height);
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 namespace abut {
 
@@ -25,6 +26,8 @@ struct LocalCore {
     bool curved = false;
     std::array<DirectionRule, 3> rules{};
     std::uint32_t rule_count = 0;
+    /// The point may move by this on the feature without leaving it.
+    double room = std::numeric_limits<double>::infinity();
 
     [[nodiscard]] Vec3 point(const Vec3& direction) const;
     /// The derivative of the point along a vector.

@@ -54,19 +54,27 @@ public:
         return false;
     }
 
-    [[nodiscard]] RefinedGap result() const {
+    /// None if a point has left its feature.
+    [[nodiscard]] std::optional<RefinedGap> result() const {
         RefinedGap gap;
         gap.outward = d_, gap.points = points();
         gap.value = dot(pair_.farthest(d_).at, d_);
+        Vec3 by_a, by_b;
         for (std::size_t k = 0; k < rule_count_; ++k) {
-            const Vec3 by = multiplier_[k] * slope(k);
             const double share = owners_[k].a && owners_[k].b ? 0.5 : 1;
+            const Vec3 by = (share * multiplier_[k]) * slope(k);
             if (owners_[k].a)
-                gap.points.a = gap.points.a + share * by;
+                by_a = by_a + by;
             if (owners_[k].b)
-                gap.points.b = gap.points.b - share * by;
+                by_b = by_b - by;
         }
+        const double error = kPointRoundings * pair_.rounding();
+        if (!(length(by_a) <= a_.room + error && length(by_b) <= b_.room + error))
+            return std::nullopt;
+        gap.points.a = gap.points.a + by_a, gap.points.b = gap.points.b + by_b;
         gap.points.at = gap.points.b - gap.points.a;
+        if (!(length(gap.points.at - gap.value * gap.outward) <= error))
+            return std::nullopt;
         return gap;
     }
 
@@ -196,8 +204,7 @@ std::optional<RefinedGap> refined(const SupportPair& pair, const Vec3& outward,
             stationary.stay_across(across);
         if (!stationary.solve(no_pivot))
             continue;
-        const RefinedGap gap = stationary.result();
-        if (length(gap.points.at - gap.value * gap.outward) <= kPointRoundings * pair.rounding())
+        if (const auto gap = stationary.result())
             return gap;
     }
     return std::nullopt;
