@@ -28,7 +28,7 @@ struct ContactManifold {
     std::uint32_t count = 0;  ///< of the points that are set
     std::array<ContactPoint, 4> points; ///< the deepest first; their names differ
     /// exact: to rounding. bound_only: if both bodies are models, depths are those of lines along
-    /// the normal; else bodies that meet are at least this deep in each other.
+    /// the normal; else as of BodyGap.
     Status status = Status::exact;
 };
 

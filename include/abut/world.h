@@ -56,7 +56,9 @@ struct BodyGap {
     /// common point.
     Vec3 normal;
     std::uint32_t triangle_a = 0, triangle_b = 0; ///< of models; else 0
-    /// exact: to rounding. bound_only: bodies that meet are at least this deep in each other.
+    /// exact: to rounding. bound_only: with a model, bodies that meet are at least this deep in each
+    /// other; for two solids, moving b by the depth along the normal separates them, but no proof
+    /// excludes a slightly shorter motion.
     Status status = Status::exact;
 };
 
@@ -191,7 +193,8 @@ public:
     ///             capsule's surface has no point so deep, and where the axis crosses an open
     ///             surface, the depth in one of the triangles that it crosses (bound_only). For
     ///             cylinders, cones and ellipsoids it is correct
-    ///             to 1e-12 of the size of both bodies; with a model, it is that of one of its
+    ///             to 1e-12 of the size of both bodies, unless nearly equal motions along very many
+    ///             directions separate them (bound_only); with a model, it is that of one of its
     ///             triangles (bound_only). For a half-space it is correct to rounding. Two
     ///             half-spaces that meet are infinitely deep in each other, unless their normals are
     ///             opposite.

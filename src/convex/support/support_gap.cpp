@@ -1,58 +1,165 @@
 #include "convex/support/support_gap.h"
 
+#include "convex/support/planar_gap.h"
+#include "convex/support/refined_gap.h"
 #include "convex/support/support_depth.h"
 #include "convex/support/support_distance.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <tuple>
 
 namespace abut {
 
-SupportGap support_gap(const SupportShape& a, const SupportShape& b, double upper_bound,
-                       SupportDepths depths, Vec3& direction) {
-    const SupportPair pair(a, b);
-    const double to_world = 1 / pair.factor();
-    SupportSearch search;
-    search.first = direction;
-    search.apart = pair.factor() * std::max(upper_bound, 0.0) + pair.radii() + pair.rounding();
-    const SupportDistance found = support_distance(pair, search);
-    SupportGap gap;
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// The gap of two cores in the frame of a pair, and the points that have it.
+struct CoreGap {
+    double distance = 0;
+    Vec3 normal; ///< zero: not known
     DifferencePoint points;
-    if (found.meet && depths == SupportDepths::no) {
-        points = found.simplex.nearest();
-    } else if (found.meet) {
-        const SupportDepth depth = support_depth(pair, found.simplex);
-        const double allowed = 4 * std::max(kDepthTolerance, 2 * pair.rounding());
-        gap.bounds_agree = depth.depth - depth.at_least <= allowed;
-        gap.distance = gap.bounds_agree ? -depth.depth : -depth.at_least;
-        gap.normal = depth.normal;
-        points.a = depth.point_a, points.b = depth.point_b;
-    } else {
-        gap.distance = found.distance;
-        gap.normal = (1 / found.distance) * found.direction;
-        points = found.simplex.nearest();
-    }
-    if (gap.normal != Vec3{})
-        direction = gap.normal;
-    gap.distance = to_world * (gap.distance - pair.radii());
-    gap.point_a = a.centre + to_world * points.a + a.radius * gap.normal;
-    gap.point_b = a.centre + to_world * points.b - b.radius * gap.normal;
+    bool bounds_agree = true;
+};
+
+CoreGap core_gap(const RefinedGap& gap) {
+    return {-gap.value, -gap.outward, gap.points, true};
+}
+
+/// A plain answer that the search may end with.
+bool is_enough(const SupportSearch& search, double distance, double at_least) {
+    return at_least > search.apart || distance <= search.near;
+}
+
+CoreGap gap_of_parallel_axes(const SupportPair& pair, const SupportSearch& search) {
+    const PlanarGap planar = planar_gap(pair, -search.apart, -search.near);
+    const RefinedGap found{planar.outward, planar.value, planar.nearest.nearest()};
+    if (is_enough(search, -planar.at_least, -planar.value))
+        return core_gap(found);
+    CoreGap gap =
+        core_gap(refined(pair, planar.outward, planar.nearest, {0, 1, 0}).value_or(found));
+    gap.bounds_agree = planar.value - planar.at_least <= 4 * kDepthTolerance;
     return gap;
 }
 
-bool supports_meet(const SupportShape& a, const SupportShape& b, Vec3& direction) {
-    const SupportPair pair(a, b);
-    SupportSearch search;
-    search.first = direction;
-    search.apart = search.near = pair.radii();
+CoreGap gap_of_depth(const SupportPair& pair, const SupportSimplex& simplex, DepthEffort effort) {
+    const SupportDepth depth = support_depth(pair, simplex, effort);
+    const bool bounds_agree =
+        depth.depth - depth.at_least <= 4 * std::max(kDepthTolerance, 2 * pair.rounding());
+    const double lower = effort == DepthEffort::bound ? depth.at_least : depth.depth;
+    return {bounds_agree ? -depth.depth : -lower,
+            depth.normal,
+            {{}, depth.point_a, depth.point_b},
+            bounds_agree};
+}
+
+CoreGap gap_in_space(const SupportPair& pair, const SupportSearch& search, SupportDepths depths) {
     const SupportDistance found = support_distance(pair, search);
-    direction = normalized_or_zero(found.direction);
-    return found.meet || found.distance <= pair.radii();
+    const DepthEffort effort =
+        depths == SupportDepths::yes ? DepthEffort::full : DepthEffort::bound;
+    if (found.meet && depths == SupportDepths::no)
+        return {0, {}, found.simplex.nearest(), true};
+    if (found.meet)
+        return gap_of_depth(pair, found.simplex, effort);
+    const Vec3 outward = (-1 / found.distance) * found.direction;
+    const CoreGap plain{found.distance, -outward, found.simplex.nearest(),
+                        found.distance - found.at_least <= 4 * kDepthTolerance};
+    if (is_enough(search, found.distance, found.at_least))
+        return plain;
+    // Nothing proves that the cores are apart, nor that they meet: the polytope decides.
+    if (!plain.bounds_agree && found.at_least <= 0)
+        if (const CoreGap gap = gap_of_depth(pair, found.simplex, DepthEffort::full);
+            gap.distance <= 0)
+            return gap;
+    const auto better = refined(pair, outward, found.simplex);
+    const double error = kCertainRoundings * pair.rounding();
+    if (better && -better->value >= found.at_least - error &&
+        -better->value <= found.distance + error)
+        return core_gap(*better);
+    return plain;
+}
+
+/// An order of shapes by nothing but what they are, so that a pair has one answer.
+bool comes_after(const SupportShape& a, const SupportShape& b) {
+    const auto key = [](const SupportShape& s) {
+        const auto& [x, y, z] = s.axis;
+        return std::tuple(s.kind, s.half, s.radius, s.reach, s.centre.x, s.centre.y, s.centre.z,
+                          x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z);
+    };
+    return key(b) < key(a);
+}
+
+SupportGap turned_round(const SupportGap& gap) {
+    return {gap.distance, gap.point_b, gap.point_a, -gap.normal, gap.bounds_agree};
+}
+
+/// The gap in the world. Lengths below what rounding can tell are 0.
+SupportGap to_world(const SupportPair& pair, const CoreGap& core, const Vec3& origin) {
+    const double scale = 1 / pair.factor();
+    const double gap = core.distance - pair.radii();
+    SupportGap result;
+    result.distance = std::abs(gap) <= kTouchRoundings * pair.rounding() ? 0 : scale * gap;
+    result.normal = core.normal, result.bounds_agree = core.bounds_agree;
+    result.point_a = origin + scale * (core.points.a + pair.a().radius * core.normal);
+    result.point_b = origin + scale * (core.points.b - pair.b().radius * core.normal);
+    return result;
+}
+
+SupportGap ordered_gap(const SupportShape& a, const SupportShape& b, double upper_bound,
+                       SupportDepths depths, bool only_sign) {
+    const auto search_of = [&](const SupportPair& pair) {
+        const double certain = kCertainRoundings * pair.rounding();
+        SupportSearch search;
+        search.apart = pair.factor() * std::max(upper_bound, 0.0) + pair.radii() + certain;
+        search.near = only_sign ? pair.radii() - certain : -kNever;
+        return search;
+    };
+    if (const std::optional<ParallelAxes> axes = parallel_axes(a, b)) {
+        const SupportPair pair(axes->a, axes->b);
+        SupportGap gap = to_world(pair, gap_of_parallel_axes(pair, search_of(pair)), {});
+        gap.normal = axes->to_world(gap.normal);
+        gap.point_a = a.centre + (axes->origin + axes->to_world(gap.point_a));
+        gap.point_b = a.centre + (axes->origin + axes->to_world(gap.point_b));
+        return gap;
+    }
+    const SupportPair pair(a, b);
+    return to_world(pair, gap_in_space(pair, search_of(pair), depths), a.centre);
+}
+
+/// The gap in either order of the shapes.
+SupportGap gap_of(const SupportShape& a, const SupportShape& b, double upper_bound,
+                  SupportDepths depths, bool only_sign, Vec3& direction) {
+    if (direction != Vec3{}) {
+        const double apart = separation_along(a, b, direction);
+        if (apart > std::max(upper_bound, 0.0))
+            return {apart, {}, {}, direction, true};
+    }
+    const SupportGap gap = comes_after(a, b)
+                               ? turned_round(ordered_gap(b, a, upper_bound, depths, only_sign))
+                               : ordered_gap(a, b, upper_bound, depths, only_sign);
+    if (gap.normal != Vec3{})
+        direction = gap.normal;
+    return gap;
+}
+
+} // namespace
+
+SupportGap support_gap(const SupportShape& a, const SupportShape& b, double upper_bound,
+                       SupportDepths depths, Vec3& direction) {
+    return gap_of(a, b, upper_bound, depths, false, direction);
+}
+
+bool supports_meet(const SupportShape& a, const SupportShape& b, Vec3& direction) {
+    return gap_of(a, b, 0, SupportDepths::no, true, direction).distance <= 0;
 }
 
 double separation_along(const SupportShape& a, const SupportShape& b, const Vec3& normal) {
     const SupportPair pair(a, b);
     const double gap = dot(pair.farthest(-normal).at, normal) - pair.radii();
-    return (gap - 4 * pair.rounding()) / pair.factor();
+    return (gap - kCertainRoundings * pair.rounding()) / pair.factor();
 }
 
 } // namespace abut

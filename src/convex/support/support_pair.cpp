@@ -30,10 +30,10 @@ DifferencePoint SupportSimplex::nearest() const {
 }
 
 SupportPair::SupportPair(const SupportShape& a, const SupportShape& b)
-    : offset_(b.centre - a.centre) {
-    const double size = max_abs(offset_) + a.reach + b.reach + a.radius + b.radius;
+    : a_(with_largest_radius(a)), b_(with_largest_radius(b)), offset_(b.centre - a.centre) {
+    const double size = max_abs(offset_) + a_.reach + b_.reach + a_.radius + b_.radius;
     factor_ = factor_of(size);
-    a_ = scaled(a, factor_), b_ = scaled(b, factor_);
+    a_ = scaled(a_, factor_), b_ = scaled(b_, factor_);
     offset_ = factor_ * offset_;
     rounding_ = kRoundings * factor_ * size;
 }

@@ -33,12 +33,9 @@ public:
         const Vec3 a = abut::farthest(a_, -direction), b = abut::farthest(b_, direction) + offset_;
         return {b - a, a, b};
     }
-    /// The pair after b has moved.
-    [[nodiscard]] SupportPair shifted(const Vec3& by) const {
-        SupportPair result = *this;
-        result.offset_ = result.offset_ + by;
-        return result;
-    }
+    /// The shapes in the pair's frame, of which only the cores are meant, with the largest radii.
+    [[nodiscard]] const SupportShape& a() const { return a_; }
+    [[nodiscard]] const SupportShape& b() const { return b_; }
     /// From centre to centre.
     [[nodiscard]] const Vec3& offset() const { return offset_; }
     [[nodiscard]] double factor() const { return factor_; }

@@ -285,10 +285,8 @@ Vec3& first_direction(Depths depths, PairWarmStart& warm_start, Vec3& none) {
     return depths == Depths::yes ? none : warm_start.direction;
 }
 BodyGap measure(const PlacedSurface& a, const PlacedCurved& b, double upper_bound, Depths depths,
-                PairWarmStart& warm_start) {
-    Vec3 none;
-    return surface_gap(a.shape, a.world, support_of(b), upper_bound, depths,
-                       first_direction(depths, warm_start, none));
+                PairWarmStart& /*warm_start*/) {
+    return surface_gap(a.shape, a.world, support_of(b), upper_bound, depths);
 }
 template <typename Solid>
 BodyGap measure(const Placed<Solid>& a, const PlacedCurved& b, double upper_bound, Depths depths,

@@ -33,8 +33,8 @@ Box3 box_around(const SupportShape& solid) {
 class NearestTriangle {
 public:
     NearestTriangle(const PlacedModel& model, const SupportShape& solid, double upper_bound,
-                    Depths depths, Vec3& direction)
-        : model_(model), solid_(solid), depths_(depths), direction_(direction) {
+                    Depths depths)
+        : model_(model), solid_(solid), depths_(depths) {
         best_.distance = upper_bound;
         best_.status = Status::bound_only;
     }
@@ -56,15 +56,14 @@ private:
 
     void try_triangle(std::uint32_t slot) {
         const SupportShape triangle = support_of(model_.world_slot(slot));
-        if (direction_ != Vec3{} &&
-            separation_along(triangle, solid_, direction_) >= best_.distance)
+        if (direction_ != Vec3{} && separation_along(triangle, solid_, direction_) > best_.distance)
             return;
         // Each depth is a bound by itself, so that a limit keeps the result valid.
         constexpr std::uint32_t kMostDepths = 256;
         const bool deep = depths_ == Depths::yes && depths_found_ < kMostDepths;
         const SupportGap gap =
             support_gap(triangle, solid_, best_.distance,
-                        deep ? SupportDepths::yes : SupportDepths::no, direction_);
+                        deep ? SupportDepths::bound : SupportDepths::no, direction_);
         depths_found_ += gap.distance < 0 ? 1 : 0;
         const std::uint32_t number = model_.data().triangle_at(slot);
         const bool lower = number < best_.triangle_a;
@@ -78,7 +77,7 @@ private:
     const PlacedModel& model_;
     const SupportShape& solid_;
     Depths depths_;
-    Vec3& direction_;
+    Vec3 direction_; ///< that of the last triangle. It only serves to skip triangles.
     std::uint32_t depths_found_ = 0;
     BodyGap best_;
 };
@@ -163,11 +162,13 @@ bool surface_meets(const Model& model, const Transform& world_from_model, const 
 }
 
 BodyGap surface_gap(const Model& model, const Transform& world_from_model,
-                    const SupportShape& solid, double upper_bound, Depths depths, Vec3& direction) {
+                    const SupportShape& solid, double upper_bound, Depths depths) {
     const PlacedModel placed_model(model, world_from_model);
-    BodyGap gap = NearestTriangle(placed_model, solid, upper_bound, depths, direction).find();
+    BodyGap gap = NearestTriangle(placed_model, solid, upper_bound, depths).find();
     if (gap.distance <= 0 && depths == Depths::yes)
         gap.status = Status::bound_only;
+    if (gap.distance < 0 && depths == Depths::no) // how deep they meet was not asked
+        gap.distance = 0, gap.normal = {}, gap.point_b = gap.point_a;
     return gap;
 }
 

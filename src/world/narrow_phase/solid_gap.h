@@ -27,7 +27,7 @@ bool surface_meets(const Model& model, const Transform& world_from_model, const 
 /// The gap of a model's surface and a solid. If they meet: 0, or with depths minus the depth of a
 /// triangle that is deep in the solid (bound_only).
 BodyGap surface_gap(const Model& model, const Transform& world_from_model,
-                    const SupportShape& solid, double upper_bound, Depths depths, Vec3& direction);
+                    const SupportShape& solid, double upper_bound, Depths depths);
 /// The gap of a model's surface and a half-space: that of the lowest vertex.
 BodyGap surface_gap(const Model& model, const Transform& world_from_model, const PlaneShape& plane);
 

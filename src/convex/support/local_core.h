@@ -1,0 +1,46 @@
+#pragma once
+
+#include "convex/support/support_pair.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+namespace abut {
+
+/// The unit directions that a core's feature allows are those with `normal . d = level`.
+struct DirectionRule {
+    Vec3 normal;
+    double level = 0;
+};
+
+/// A core near one of its farthest points: a feature on which the farthest point is a smooth function
+/// of the direction.
+///
+/// The point is `fixed`, plus `rim` times the farthest point of the disc across axis[2], or for
+/// `curved` that of the ellipsoid.
+struct LocalCore {
+    const SupportShape* shape = nullptr;
+    Vec3 fixed;
+    double rim = 0;
+    bool curved = false;
+    std::array<DirectionRule, 3> rules{};
+    std::uint32_t rule_count = 0;
+    /// The point may move by this on the feature without leaving it.
+    double room = std::numeric_limits<double>::infinity();
+
+    [[nodiscard]] Vec3 point(const Vec3& direction) const;
+    /// The derivative of the point along a vector.
+    [[nodiscard]] Vec3 derivative(const Vec3& direction, const Vec3& along) const;
+};
+
+/// Which of a simplex's points are meant.
+enum class PairSide : std::uint8_t { a, b };
+
+/// The feature of a core that holds the simplex's weighted point.
+///
+/// In          direction: unit vector in which the point is farthest, to about 1e-4.
+LocalCore local_core(const SupportPair& pair, PairSide side, const SupportSimplex& nearest,
+                     const Vec3& direction);
+
+} // namespace abut
