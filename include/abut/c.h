@@ -239,8 +239,11 @@ abut_status abut_scene_add_part(abut_scene* scene, const char* name, const char*
 size_t abut_scene_part_count(const abut_scene* scene);
 void abut_scene_free(abut_scene* scene);
 
+/** A touch tolerance: what the files of each pair tell apart. */
+#define ABUT_TOUCH_OF_FILES (-1.0)
+
 typedef struct abut_clash_options {
-    double clearance, touch_tolerance; /**< metres, not negative */
+    double clearance, touch_tolerance; /**< metres, not negative; the latter or ABUT_TOUCH_OF_FILES */
     int self;                          /**< not 0: also within each of several models */
     const char* rules;                 /**< path of a file of rules; NULL: none */
     abut_progress progress;            /**< NULL: none */
@@ -251,7 +254,8 @@ typedef struct abut_clash_options {
 typedef struct abut_report abut_report;
 
 /** Finds all clashes between parts of different scenes; of one scene, between its parts:
- * abut::find_clashes. `options` may be NULL. ABUT_BAD_ARGUMENT if two scenes have the same name. */
+ * abut::find_clashes. `options` may be NULL: no clearance, and ABUT_TOUCH_OF_FILES.
+ * ABUT_BAD_ARGUMENT if two scenes have the same name. */
 abut_status abut_find_clashes(const abut_scene* const* scenes, size_t count,
                               const abut_clash_options* options, abut_report** report);
 /** The same of a store, in `memory` bytes; 0: 512 MiB. */

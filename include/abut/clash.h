@@ -73,7 +73,7 @@ struct IgnoreRule {
 struct ClashRule {
     std::string name;
     PartSelector a, b;
-    std::optional<double> clearance, touch_tolerance; ///< metres; default: those of ClashOptions
+    std::optional<double> clearance, touch_tolerance; ///< metres; none: those of ClashOptions
     IgnoreRule ignore;
     /// Metres: parts that meet no deeper than this are left out.
     std::optional<double> tolerated_depth{};
@@ -126,13 +126,17 @@ enum class ClashOrder : std::uint8_t {
 
 struct ClashOptions {
     double clearance = 0; ///< metres; reports pairs without contact that are nearer than this
-    double touch_tolerance =
-        0;             ///< metres; surfaces that meet no deeper than this are of kind `touch`
-    bool self = false; ///< with several models: also tests the pairs within each model
-    std::vector<ClashRule> rules{};      ///< if rules and matrix are empty, all pairs are tested
-    ClashMatrix matrix{};                ///< decides about the pairs that no rule selects
-    PartQuery only{};                    ///< both parts of a pair match it
-    PartQuery a{}, b{};                  ///< one part of a pair matches a, the other one b
+    /// Metres; surfaces that meet no deeper than this are of kind `touch` (docs/clash.md). None:
+    /// what the files of a pair tell apart, which Scene::precision says. 0: exact.
+    std::optional<double> touch_tolerance{};
+    bool self = false;              ///< with several models: also tests the pairs within each model
+    std::vector<ClashRule> rules{}; ///< if rules and matrix are empty, all pairs are tested
+    ClashMatrix matrix{};           ///< decides about the pairs that no rule selects
+    PartQuery only{};               ///< both parts of a pair match it
+    PartQuery a{}, b{};             ///< one part of a pair matches a, the other one b
+    /// A condition that the caller will ask of the report. It decides about no pair, but what it
+    /// asks for must be known, as with `only`.
+    ClashQuery asked_later{};
     std::vector<Neighbours> leave_out{}; ///< pairs that belong together in these ways
     ClashOrder order = ClashOrder::part;
     Progress progress{};
@@ -154,10 +158,18 @@ struct Clash {
     /// else 0. The true volume is at most volume_error larger or smaller. docs/clash.md says how it
     /// is found, and when it is not.
     double volume = 0, volume_error = 0;
+    /// Metres by which the coordinates of both parts, and lengths between them, are rounded. Writers
+    /// give a shorter `distance` as 0.
+    double rounding = 0;
     std::optional<Neighbours> neighbours; ///< how the parts belong together, if they do
     std::optional<ClashStatus> status;    ///< set only for a store; never `resolved`
     std::string note; ///< written by the person who reviewed or approved the clash
 };
+
+/// Returns the distance of a clash as people should read it: 0 where it is rounding.
+///
+/// That is a distance of at most Clash::rounding, or below a picometre, which is less than an atom.
+double told_distance(const Clash& clash);
 
 /// A clash as a store lists it. Its parts are described in words, because they may no longer exist.
 struct ListedClash {
@@ -165,7 +177,7 @@ struct ListedClash {
     ClashKind kind = ClashKind::hard;
     ClashStatus status = ClashStatus::fresh;
     std::array<std::string, 2> part, name, type, file; ///< of a and b; `part` is the part's id
-    double distance = 0;       ///< metres, as Clash::distance, when the clash was last found
+    double distance = 0;       ///< metres, as told_distance, when the clash was last found
     std::int64_t resolved = 0; ///< when it was found resolved, in seconds since 1970; 0: it exists
     std::string note;
 };
@@ -197,6 +209,16 @@ const char* to_string(LeftOut reason);
 /// How many parts that bound no solid a report names.
 inline constexpr std::size_t kNamedSurfaces = 100;
 
+/// Where a touch tolerance comes from.
+enum class TouchSource : std::uint8_t {
+    option,    ///< ClashOptions::touch_tolerance
+    precision, ///< the precision that a file states
+    rounding,  ///< the coordinates of a file are in single precision
+    none,      ///< nothing is known of the precision of the models: exact
+};
+/// The enumerator's name.
+const char* to_string(TouchSource source);
+
 struct ClashReport {
     struct ModelSummary {
         std::string file;
@@ -205,6 +227,8 @@ struct ClashReport {
         double unit = 1;             ///< metres per unit of the file
         UpAxis up = UpAxis::y;       ///< up axis of the file
         std::vector<SceneNote> notes{};
+        double precision = 0; ///< metres, as ModelPrecision::stated
+        double rounding = 0;  ///< metres; the largest rounding of the coordinates of a part
     };
     /// The frame of all points and directions: in metres, with the axes of one of the models.
     struct Frame {
@@ -243,7 +267,12 @@ struct ClashReport {
     /// edge is not used by exactly two triangles; one too large for the memory of its import does
     /// not count.
     Surfaces surfaces;
-    double clearance = 0, touch_tolerance = 0;
+    double clearance = 0;
+    /// Metres; of pairs whose rule names none. If the options name none either, each pair has its
+    /// own, and these are the largest and the smallest one of the candidates.
+    double touch_tolerance = 0, least_touch_tolerance = 0;
+    TouchSource touch_source = TouchSource::option;
+    std::string touch_file;       ///< of `precision` and `rounding`: the model that decided
     std::uint64_t candidates = 0; ///< part pairs whose boxes are within the clearance on every axis
     std::array<std::uint64_t, 6> counts{}; ///< by ClashKind
     /// Pairs that are not in the report, by LeftOut. Only the last two reasons are counted after a
@@ -273,7 +302,8 @@ struct ClashReport {
 ///
 /// In/out      models in metres. A model whose axes differ from the first model's is rotated by
 ///             quarter turns. `seconds.import` stays 0.
-/// Errors      Error{bad_argument} for a negative or NaN tolerance, Error{interrupted}.
+/// Errors      Error{bad_argument} for a negative or NaN tolerance, and for a property or a value
+///             that `only`, `a`, `b` or `asked_later` ask for and no part has; Error{interrupted}.
 /// Cost        the broad phase takes O(n log n + candidates). A hierarchy is built once for each
 ///             mesh that a candidate needs.
 ClashReport find_clashes(const std::vector<Scene>& models, const ClashOptions& options);

@@ -17,7 +17,8 @@ namespace abut {
 
 /// The clashes of one question, as found by the last job that finished.
 struct ClashReview {
-    double clearance = 0, touch_tolerance = 0; ///< metres; the tolerances of the question
+    double clearance = 0;                  ///< metres; of the question, as the next one
+    std::optional<double> touch_tolerance; ///< as ClashOptions::touch_tolerance
     bool self = false;
     std::uint64_t rules = 0;                 ///< number of rules
     std::int64_t finished = 0;               ///< when the job ended, in seconds since 1970
@@ -60,7 +61,8 @@ struct ListedGroup {
 
 /// The groups of one question by one grouping, and what has become of them.
 struct GroupReview {
-    double clearance = 0, touch_tolerance = 0; ///< metres; the tolerances of the question
+    double clearance = 0;                  ///< metres; of the question, as the next one
+    std::optional<double> touch_tolerance; ///< as ClashOptions::touch_tolerance
     bool self = false;
     std::uint64_t rules = 0; ///< number of rules
     std::vector<GroupBy> by;

@@ -100,6 +100,8 @@ public:
     [[nodiscard]] bool empty() const noexcept { return condition_ == nullptr; }
     [[nodiscard]] const std::string& text() const noexcept { return text_; }
     [[nodiscard]] std::vector<std::string> names() const;
+    /// For use by the library only.
+    [[nodiscard]] const Condition* condition() const noexcept { return condition_.get(); }
     /// Returns whether the query asks for the status of a clash.
     [[nodiscard]] bool asks_status() const;
     friend bool operator==(const ClashQuery& a, const ClashQuery& b) { return a.text_ == b.text_; }

@@ -58,6 +58,20 @@ struct SceneNote {
     std::string text; ///< one line
 };
 
+/// What a model tells apart. The clash job takes its touch tolerance from it (docs/clash.md).
+///
+/// Of a scene that a program makes, nothing is known: its coordinates count as exact.
+struct ModelPrecision {
+    /// Metres: points that are nearer to each other are one point for the program that wrote the
+    /// file. IFC states it, and quantised positions of glTF imply it. 0: the file states none.
+    double stated = 0;
+    /// Whether the file or its reader has rounded the coordinates of the meshes to single precision.
+    bool single_meshes = false;
+    /// Whether it has rounded the transforms of the parts, too.
+    bool single_transforms = false;
+    friend bool operator==(const ModelPrecision&, const ModelPrecision&) = default;
+};
+
 /// The parts of a model file. Instances share a mesh. The world is in metres.
 struct Scene {
     std::string file; ///< path as given
@@ -73,6 +87,7 @@ struct Scene {
     /// metres with z up, whatever the axes of this scene; the identity if it names none.
     /// ReadOptions::map says whether the parts lie on the map already.
     Transform map_from_project{};
+    ModelPrecision precision{};
 };
 
 /// Turns the world of a scene by quarter turns, so that this axis points up. Exact: only the order

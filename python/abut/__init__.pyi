@@ -798,6 +798,9 @@ class Clash:
     def volume_error(self) -> float:
         """bound of its error"""
     @property
+    def rounding(self) -> float:
+        """metres by which the coordinates of both are rounded"""
+    @property
     def neighbours(self) -> Neighbours:
         """Neighbours: how the parts belong together"""
     @property
@@ -907,6 +910,18 @@ class ClashReport:
     def topics_revision(self) -> int:
         """number of their last change"""
     @property
+    def touch_tolerance(self) -> float:
+        """metres; the largest one if pairs differ"""
+    @property
+    def least_touch_tolerance(self) -> float:
+        """metres; the smallest one if pairs differ"""
+    @property
+    def touch_source(self) -> str:
+        """'option', 'precision', 'rounding' or 'none'"""
+    @property
+    def touch_file(self) -> str:
+        """the model whose precision or rounding gives the tolerance"""
+    @property
     def clashes(self) -> list[Clash]:
         """list of Clash, in the order that `sort` asks for"""
     @property
@@ -923,9 +938,6 @@ class ClashReport:
         """list of str: what makes the result doubtful"""
     @property
     def clearance(self) -> float:
-        """metres"""
-    @property
-    def touch_tolerance(self) -> float:
         """metres"""
     @property
     def candidates(self) -> int:
@@ -962,8 +974,8 @@ class ClashReview:
     def clearance(self) -> float:
         """metres"""
     @property
-    def touch_tolerance(self) -> float:
-        """metres"""
+    def touch_tolerance(self) -> float | None:
+        """metres; None: what the files tell apart"""
     @property
     def self(self) -> bool: ...
     @property
@@ -1839,8 +1851,8 @@ class GroupReview:
     def clearance(self) -> float:
         """metres"""
     @property
-    def touch_tolerance(self) -> float:
-        """metres"""
+    def touch_tolerance(self) -> float | None:
+        """metres; None: what the files tell apart"""
     @property
     def self(self) -> bool: ...
     @property
@@ -2379,6 +2391,18 @@ class ModelPath:
     def up(self) -> UpAxis | None:
         """UpAxis; None: as the format defines"""
 
+class ModelPrecision:
+    """What a model tells apart."""
+    @property
+    def stated(self) -> float:
+        """metres, as the file states it; 0: it does not"""
+    @property
+    def single_meshes(self) -> bool:
+        """whether coordinates of meshes are in single precision"""
+    @property
+    def single_transforms(self) -> bool:
+        """whether transforms of parts are, too"""
+
 class NamedSurface:
     """A part of a ClashReport that bounds no solid."""
     @property
@@ -2418,6 +2442,12 @@ class ModelSummary:
     @property
     def notes(self) -> list[SceneNote]:
         """list of SceneNote"""
+    @property
+    def precision(self) -> float:
+        """metres, as the file states it"""
+    @property
+    def rounding(self) -> float:
+        """metres; the largest rounding of the coordinates of a part"""
 
 class Motion:
     """How a body moves while t goes from 0 to 1: it turns about `centre` (a world point at t = 0) at
@@ -3554,6 +3584,9 @@ class Scene:
     @property
     def map_from_project(self) -> Any:
         """matrix of shape (4, 4): from an IFC project to the map that its file names"""
+    @property
+    def precision(self) -> ModelPrecision:
+        """ModelPrecision"""
 
 class SceneNote:
     """Something that a scene does not have as its file means it."""
@@ -4690,13 +4723,13 @@ def elementary_impacts(kinds: ElementaryKind | str | ArrayLike, start: ArrayLike
 def feature_tests(representatives_a: Representatives, representatives_b: Representatives, pairs: ArrayLike, *, margin: float = ...) -> np.recarray[Any, Any]:
     """As self_feature_tests, but between two surfaces: pairs of a triangle of each."""
 @overload
-def find_clashes(store: Store, *, clearance: float = ..., touch_tolerance: float = ..., self: bool = ..., rules: Sequence[ClashRule] | _Path = ..., progress: _Progress = ..., memory: int = ..., order: WorkOrder | str = ..., keep: bool = ..., keep_hierarchies: bool = ..., crew: Crew | None = ..., only: str | PartQuery = ..., a: str | PartQuery = ..., b: str | PartQuery = ..., matrix: ClashMatrix | _Path | None = ..., leave_out: Sequence[Neighbours | str] = ..., sort: ClashOrder | str = ...) -> ClashReport:
+def find_clashes(store: Store, *, clearance: float = ..., touch_tolerance: float | None = ..., self: bool = ..., rules: Sequence[ClashRule] | _Path = ..., progress: _Progress = ..., memory: int = ..., order: WorkOrder | str = ..., keep: bool = ..., keep_hierarchies: bool = ..., crew: Crew | None = ..., only: str | PartQuery = ..., a: str | PartQuery = ..., b: str | PartQuery = ..., matrix: ClashMatrix | _Path | None = ..., leave_out: Sequence[Neighbours | str] = ..., sort: ClashOrder | str = ...) -> ClashReport:
     """All clashes and clearances between the parts of different models; of one model, between its parts.
 
     models            list of Scene or paths, or one of them
     store             an open Store: models of any size in little memory
     clearance         metres; pairs without contact that are nearer are reported
-    touch_tolerance   metres; surfaces that meet no deeper than this are of kind touch
+    touch_tolerance   metres; surfaces that meet no deeper than this are of kind touch; None: what the files tell apart
     self              also the pairs within each model
     rules             list of ClashRule, or the path of a JSON or TOML file
     progress          function of (stage, fraction)
@@ -4715,7 +4748,7 @@ def find_clashes(store: Store, *, clearance: float = ..., touch_tolerance: float
     KeyboardInterrupt at Ctrl-C.
     """
 @overload
-def find_clashes(models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, *, clearance: float = ..., touch_tolerance: float = ..., self: bool = ..., rules: Sequence[ClashRule] | _Path = ..., progress: _Progress = ..., only: str | PartQuery = ..., a: str | PartQuery = ..., b: str | PartQuery = ..., matrix: ClashMatrix | _Path | None = ..., leave_out: Sequence[Neighbours | str] = ..., sort: ClashOrder | str = ...) -> ClashReport: ...
+def find_clashes(models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, *, clearance: float = ..., touch_tolerance: float | None = ..., self: bool = ..., rules: Sequence[ClashRule] | _Path = ..., progress: _Progress = ..., only: str | PartQuery = ..., a: str | PartQuery = ..., b: str | PartQuery = ..., matrix: ClashMatrix | _Path | None = ..., leave_out: Sequence[Neighbours | str] = ..., sort: ClashOrder | str = ...) -> ClashReport: ...
 def find_motion_clashes(assembly: Assembly, *, clearance: float = ..., tolerance: float = ..., step: float = ..., joined: bool = ..., max_steps: int = ..., progress: _Progress = ...) -> MotionReport:
     """Finds every clash between the parts of an assembly while it moves.
 
@@ -4896,7 +4929,7 @@ def open_store(path: _Path, *, read_only: bool = ...) -> Store:
     """Opens a Store. Raises Error: file_not_found, malformed, unsupported (a newer version's), unreadable (another
     process writes it).
     """
-def overlap_graph(store: Store, *, clearance: float = ..., touch_tolerance: float = ..., self: bool = ..., rules: Sequence[ClashRule] | _Path = ..., progress: _Progress = ..., memory: int = ..., lines: int = ..., keep: bool = ...) -> GraphReport:
+def overlap_graph(store: Store, *, clearance: float = ..., touch_tolerance: float | None = ..., self: bool = ..., rules: Sequence[ClashRule] | _Path = ..., progress: _Progress = ..., memory: int = ..., lines: int = ..., keep: bool = ...) -> GraphReport:
     """The graph of a store's parts: an edge where boxes are at most the clearance apart.
 
     lines  of about how many edges the ends are wanted

@@ -61,7 +61,7 @@ PARAMETERS = {
     "mode": "ContactMode | str", "volume": "Volume | str", "method": "BroadPhaseMethod | str", "scheme": "Scheme | str",
     "broad_phase": "BroadPhaseMethod | str", "assignment": "Assignment | str", "culling": "Culling | str",
     "missing": "MissingParts | str", "order": "WorkOrder | str", "up": "UpAxis | str", "kind": "ElementaryKind | str",
-    "kinds": "ElementaryKind | str | ArrayLike", "clearance": "float", "touch_tolerance": "float", "self": "bool",
+    "kinds": "ElementaryKind | str | ArrayLike", "clearance": "float", "touch_tolerance": "float | None", "self": "bool",
     "rules": "Sequence[ClashRule] | _Path", "memory": "int", "keep": "bool", "keep_hierarchies": "bool", "lines": "int",
     "crew": "Crew | None", "scene": "Scene", "model": "Model", "surface": "Deformable", "segment": "Segment",
     "shape": "Sphere | Box3 | OrientedBox | Segment", "probe": "Probe | Model | Convex | Sphere | Capsule | Box3",
@@ -169,12 +169,12 @@ OTHER_OVERLOADS = {
         "motion_b: Motion | Sequence[Motion] | _Poses, *, absolute_error: float | None = ..., max_steps: int | None = ..., "
         "progress: _Progress = ...) -> Any: ..."],
     "find_clashes": [
-        "def find_clashes(store: Store, *, clearance: float = ..., touch_tolerance: float = ..., self: bool = ..., "
+        "def find_clashes(store: Store, *, clearance: float = ..., touch_tolerance: float | None = ..., self: bool = ..., "
         "rules: Sequence[ClashRule] | _Path = ..., progress: _Progress = ..., memory: int = ..., order: WorkOrder | str = ..., "
         "keep: bool = ..., keep_hierarchies: bool = ..., crew: Crew | None = ..., only: str | PartQuery = ..., a: str | PartQuery = ..., b: str | PartQuery = ..., "
         "matrix: ClashMatrix | _Path | None = ..., leave_out: Sequence[Neighbours | str] = ..., sort: ClashOrder | str = ...) -> ClashReport: ...",
         "def find_clashes(models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, *, clearance: float = ..., "
-        "touch_tolerance: float = ..., self: bool = ..., rules: Sequence[ClashRule] | _Path = ..., "
+        "touch_tolerance: float | None = ..., self: bool = ..., rules: Sequence[ClashRule] | _Path = ..., "
         "progress: _Progress = ..., only: str | PartQuery = ..., a: str | PartQuery = ..., b: str | PartQuery = ..., "
         "matrix: ClashMatrix | _Path | None = ..., leave_out: Sequence[Neighbours | str] = ..., sort: ClashOrder | str = ...) -> ClashReport: ..."],
     "overlaps": [

@@ -239,6 +239,8 @@ def test_conditions_matrix_and_volume(scenes):
     assert worst.volume_error >= 0 and report.left_out["not_selected"] == 0
     assert abut.ranked_clashes(report) == list(range(len(report)))
     assert abut.ClashQuery("any").matches(report, 0) and not abut.ClashQuery("severity = high").matches(report, 0)
-    none = abut.find_clashes(scenes, only="id = nothing")
+    none = abut.find_clashes(scenes, only="not id = *")
     assert len(none) == 0 and none.left_out["not_selected"] > 0
+    with pytest.raises(abut.Error, match='no part has the id "nothing"; the nearest'):
+        abut.find_clashes(scenes, only="id = nothing")
     assert abut.find_clashes(scenes, matrix="architecture").matrix.groups == ["architecture", "structure", "services"]

@@ -72,7 +72,8 @@ ClashOptions options_from_c(const abut_clash_options* options, const Progress& p
     if (options == nullptr)
         return result;
     result.clearance = options->clearance;
-    result.touch_tolerance = options->touch_tolerance;
+    if (options->touch_tolerance != ABUT_TOUCH_OF_FILES)
+        result.touch_tolerance = options->touch_tolerance;
     result.self = options->self != 0;
     if (options->rules != nullptr)
         result.rules = read_rules(options->rules);

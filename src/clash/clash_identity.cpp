@@ -51,7 +51,7 @@ std::uint64_t clash_identity(std::string_view file_a, std::string_view part_a,
 
 void require_tolerances(const ClashOptions& options) {
     require_length(options.clearance, "clearance");
-    require_length(options.touch_tolerance, "touch tolerance");
+    require_length(options.touch_tolerance.value_or(0), "touch tolerance");
     const auto require_rule = [](const ClashRule& rule) {
         require_length(rule.clearance.value_or(0), "a rule's clearance");
         require_length(rule.touch_tolerance.value_or(0), "a rule's touch tolerance");

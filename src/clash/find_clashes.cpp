@@ -11,6 +11,7 @@
 #include "clash/rules/rule_table.h"
 #include "clash/surface_parts.h"
 #include "clash/test_pair.h"
+#include "clash/touch_of_report.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/stop_watch.h"
@@ -27,6 +28,7 @@ namespace {
 struct Candidate {
     std::uint32_t a, b; ///< indices in PartInstances::parts
     PairTerms terms;
+    double rounding = 0; ///< as Clash::rounding
 };
 
 class ClashJob {
@@ -51,12 +53,12 @@ public:
 private:
     void summarise() {
         report_.clearance = options_.clearance;
-        report_.touch_tolerance = options_.touch_tolerance;
         if (!models_.empty())
             report_.frame = {models_.front().up, models_.front().file};
         for (const Scene& model : models_) {
-            ClashReport::ModelSummary summary{model.file, model.parts.size(), 0,
-                                              model.unit, model.up,           model.notes};
+            ClashReport::ModelSummary summary{
+                model.file,  model.parts.size(),    0, model.unit, model.up,
+                model.notes, model.precision.stated};
             for (const Part& part : model.parts)
                 summary.triangles +=
                     part.mesh < model.meshes.size() ? model.meshes[part.mesh].triangles.size() : 0;
@@ -81,29 +83,44 @@ private:
             boxes.push_back(p.box);
             rules.add({p.model, models_[p.model].file, part(i).id, part(i).name, part(i).type,
                        &models_[p.model].properties, p.part});
+            rules.add_precision(p.model, models_[p.model].precision.stated, p.rounding);
         }
         std::size_t first = 0;
         for (const Scene& model : models_) {
             rules.add(model.relations, first);
             first += model.parts.size();
         }
+        rules.require_known([&] {
+            std::vector<std::string> names;
+            for (const Scene& model : models_)
+                names.insert(names.end(), model.properties.names.begin(),
+                             model.properties.names.end());
+            return names;
+        });
         for (std::string& warning : rules.warnings())
             report_.warnings.push_back(std::move(warning));
         const bool across = models_.size() > 1 && !options_.self;
         const auto filter = [&](std::uint32_t i, std::uint32_t j) {
             return !across || parts_.parts[i].model != parts_.parts[j].model;
         };
-        for (const IndexPair pair : overlapping_boxes(boxes, largest_clearance(options_), filter)) {
+        TouchOfReport touch;
+        for (const IndexPair pair : overlapping_boxes(boxes, rules.largest_reach(boxes), filter)) {
             const std::uint32_t i = pair.a(), j = pair.b();
             const PairDecision decision = rules.decide(i, j);
-            if (!overlap(boxes[i], boxes[j],
-                         decision.terms ? decision.terms->clearance : decision.clearance))
+            if (!decision.reach.holds(boxes[i], boxes[j]))
                 continue;
-            if (decision.terms)
-                candidates_.push_back({i, j, *decision.terms});
-            else
+            if (!decision.terms) {
                 ++report_.left_out.at(static_cast<std::size_t>(decision.reason));
+                continue;
+            }
+            touch.add(rules.precision(), i, j);
+            candidates_.push_back(
+                {i, j, *decision.terms,
+                 rules.precision().rounding(i, j) + double_rounding(boxes[i], boxes[j])});
         }
+        touch.tell(options_, report_);
+        for (std::uint32_t m = 0; m < models_.size(); ++m)
+            report_.models[m].rounding = rules.precision().rounding_of_model(m);
         report_.candidates = candidates_.size();
         progress.advance();
     }
@@ -124,6 +141,8 @@ private:
         for (const Scene& model : models_)
             files.push_back(model.file);
         report_.warnings = warn_of_distant_models(files, boxes, largest_clearance(options_));
+        for (std::string& question : ask_about_lengths(options_, boxes))
+            report_.warnings.push_back(std::move(question));
     }
 
     void build() {
@@ -181,6 +200,7 @@ private:
         const PartInstance &a = parts_.parts[c.a], &b = parts_.parts[c.b];
         clash.model = {a.model, b.model};
         clash.part = {a.part, b.part};
+        clash.rounding = c.rounding;
         if (c.terms.rule != nullptr)
             clash.rule = c.terms.rule->name, clash.severity = c.terms.rule->severity;
         clash.id = clash_identity(models_[a.model].file, part(c.a).id, models_[b.model].file,

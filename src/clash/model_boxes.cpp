@@ -59,4 +59,34 @@ std::vector<std::string> warn_of_distant_models(const std::vector<std::string>& 
     return warnings;
 }
 
+std::vector<std::string> ask_about_lengths(const ClashOptions& options,
+                                           const std::vector<Box3>& boxes) {
+    double size = 0;
+    for (const Box3& box : boxes)
+        size = std::max({size, box.upper.x - box.lower.x, box.upper.y - box.lower.y,
+                         box.upper.z - box.lower.z});
+    std::vector<std::string> questions;
+    const auto look_at = [&](const std::string& what, double length) {
+        constexpr double kHalf = 2, kTenth = 10, kMetre = 1;
+        const bool is_long =
+            kHalf * length >= size || (length >= kMetre && kTenth * length >= size);
+        if (size > 0 && length > 0 && is_long)
+            questions.push_back(fmt::format("{} of {:.6g} m: did you mean {:.6g}mm? The largest "
+                                            "model measures {}",
+                                            what, length, length, length_text(size)));
+    };
+    look_at("a clearance", options.clearance);
+    look_at("a touch tolerance", options.touch_tolerance.value_or(0));
+    const auto look_at_rule = [&](const ClashRule& rule) {
+        const std::string of = "rule \"" + rule.name + "\": a ";
+        look_at(of + "clearance", rule.clearance.value_or(0));
+        look_at(of + "touch tolerance", rule.touch_tolerance.value_or(0));
+        look_at(of + "tolerated depth", rule.tolerated_depth.value_or(0));
+    };
+    std::ranges::for_each(options.rules, look_at_rule);
+    for (const ClashMatrix::Cell& cell : options.matrix.cells)
+        look_at_rule(cell.terms);
+    return questions;
+}
+
 } // namespace abut

@@ -2,6 +2,7 @@
 
 #include <abut/error.h>
 
+#include "clash/rules/pair_precision.h"
 #include "core/parallel.h"
 #include "io/scene/model_frame.h"
 #include "math/transform.h"
@@ -28,7 +29,8 @@ PartInstances gather_parts(const std::vector<Scene>& models) {
                                     p,
                                     first + part.mesh,
                                     turned(part.world_from_mesh, models[m].up, models.front().up),
-                                    {}});
+                                    {},
+                                    0});
         }
     }
     std::vector<std::vector<std::uint32_t>> parts_of_mesh(result.meshes.size());
@@ -39,10 +41,13 @@ PartInstances gather_parts(const std::vector<Scene>& models) {
         try {
             require_valid(*result.meshes[k]);
             const UsedPositions used(*result.meshes[k]);
+            const Vec3 reach = reach_of(world_box(used.get(), {}));
+            const ModelPrecision& precision = models[model_of_mesh[k]].precision;
             for (const std::uint32_t i : parts_of_mesh[k]) {
                 PartInstance& part = result.parts[i];
                 require_finite(part.world_from_mesh, "a part's transform");
                 part.box = world_box(used.get(), part.world_from_mesh);
+                part.rounding = single_rounding(precision, reach, part.world_from_mesh);
             }
         } catch (const Error& error) {
             throw Error(ErrorCode::bad_mesh, file, error.what());

@@ -12,7 +12,8 @@ struct PartInstance {
     std::uint32_t model = 0, part = 0;
     std::uint32_t mesh = 0; ///< index in PartInstances::meshes
     Transform world_from_mesh;
-    Box3 box; ///< world box of the vertices that triangles use; empty without triangles
+    Box3 box;            ///< world box of the vertices that triangles use; empty without triangles
+    double rounding = 0; ///< as single_rounding
 };
 
 /// The parts of all models, in the frame of the first model.

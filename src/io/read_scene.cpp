@@ -57,6 +57,7 @@ Scene completed(Scene scene, const ModelPath& path, const ReadOptions& options) 
     scene.file = path.path;
     scene.unit = frame.unit;
     scene.up = frame.up;
+    scene.precision.single_meshes = true; // see PolygonScene::vertex
     make_ids_unique(scene.parts);
     MeshFaults faults;
     for (std::size_t i = 0; i < scene.meshes.size(); ++i)

@@ -50,12 +50,25 @@ void require_unchanged(StoreFile& store, const JobPlan& plan) {
     require_parts(store.models(), parts_key(plan.stored.models), store.path());
 }
 
+/// Returns the options that a job records. A store about whose models nothing is known, as earlier
+/// versions have written it, is asked the same question as before: whether surfaces meet exactly.
+ClashOptions recorded_options(StoreFile& store, const ClashOptions& options) {
+    ClashOptions recorded = options;
+    const auto is_unknown = [&](const ModelRow& model) {
+        return store.precision(model.model) == ModelPrecision{};
+    };
+    if (!options.touch_tolerance && std::ranges::all_of(store.models(), is_unknown))
+        recorded.touch_tolerance = 0;
+    return recorded;
+}
+
 } // namespace
 
-StoreClashReport find_clashes(const Store& store, const ClashOptions& options,
+StoreClashReport find_clashes(const Store& store, const ClashOptions& asked,
                               const OutOfCoreOptions& out_of_core) {
     StopWatch total, watch;
     StoreFile& file = store.file();
+    const ClashOptions options = recorded_options(file, asked);
     Crew* const crew = out_of_core.crew;
     JobPlan plan = make_plan(file, options, out_of_core, true);
     JobResult result(plan, options, file, crew == nullptr ? 1 : crew->size());
@@ -75,6 +88,8 @@ StoreClashReport find_clashes(const Store& store, const ClashOptions& options,
     require_unchanged(file, plan);
     const double narrow = watch.lap();
     StoreClashReport report = result.finish();
+    if (!asked.touch_tolerance && options.touch_tolerance)
+        report.report.touch_source = TouchSource::none;
     report.report.seconds.broad = broad;
     report.report.seconds.narrow = narrow;
     report.report.seconds.total = total.lap();

@@ -5,6 +5,7 @@
 #include "math/vector.h"
 #include "store/codec/hierarchy_codec.h"
 #include "store/database/level_table.h"
+#include "store/database/precision_table.h"
 #include "store/database/property_table.h"
 #include "store/database/store_file.h"
 #include "store/import/mesh_draft.h"
@@ -202,6 +203,7 @@ Scene read_parts(const Store& store, std::size_t model) {
     scene.notes = parse_notes(row.notes, file.path());
     scene.project = row.project;
     scene.map_from_project = row.map_from_project;
+    scene.precision = file.precision(row.model);
     std::vector<std::int64_t> parts;
     file.for_each_part(row, [&](const PartRow& part) {
         parts.push_back(part.part);
@@ -226,6 +228,8 @@ void verify(const Store& store, const Progress& progress) {
         known[mesh.mesh] = true;
         meter.advance();
     }
+    for (const ModelRow& model : file.models())
+        (void)file.precision(model.model);
     file.for_each_part([&](const PartRow& part) {
         if (!known.contains(part.mesh))
             throw Error(ErrorCode::malformed, file.path(),

@@ -160,6 +160,27 @@ TEST_F(GltfGeometry, QuantisedPositionsOfEveryType) {
     }
 }
 
+TEST_F(GltfGeometry, TheStepOfQuantisedPositionsIsTheirPrecision) {
+    for (const bool is_normalized : {false, true}) {
+        GltfBuilder builder;
+        builder.require("KHR_mesh_quantization");
+        const std::vector<std::array<std::int16_t, 4>> corners{
+            {0, 0, 0, 0}, {32767, 0, 0, 0}, {0, 32767, 0, 0}, {0, 0, 32767, 0}};
+        const std::size_t positions = builder.accessor(corners, kShort, 4, "VEC3", 8);
+        builder.document["accessors"][positions]["normalized"] = is_normalized;
+        const std::size_t indices =
+            builder.accessor(std::vector<std::uint16_t>{0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3},
+                             kUnsignedShort, 12, "SCALAR");
+        const std::size_t mesh =
+            builder.mesh({{"attributes", {{"POSITION", positions}}}, {"indices", indices}});
+        const double scale = is_normalized ? 30 : 0.001;
+        builder.node({{"mesh", mesh}, {"scale", {scale, 0.5 * scale, scale}}});
+        const ModelPrecision precision = read(builder).precision;
+        EXPECT_DOUBLE_EQ(precision.stated, is_normalized ? 30 / 32767.0 : 0.001);
+        EXPECT_TRUE(precision.single_meshes);
+    }
+}
+
 /// A fan of triangles in a plane, with more corners than readers take at once.
 std::vector<std::array<float, 3>> many_positions(std::size_t count) {
     std::vector<std::array<float, 3>> positions;

@@ -309,6 +309,39 @@ TEST_F(Ifc, ASiteFarFromTheOriginKeepsItsPrecision) {
                {at.x + 2.7, at.y + 1.5, at.z + 1}, {at.x + 3.3, at.y + 2.5, at.z + 1.75});
 }
 
+TEST_F(Ifc, ThePrecisionIsInTheUnitOfTheFile) {
+    const auto stated = [&](const std::string& precision) {
+        const std::string contexts =
+            "IFCGEOMETRICREPRESENTATIONCONTEXT($,'Model',3," + precision + ",#13,$)";
+        return read_scene(
+                   folder_.file("p.ifc", changed("house_4.ifc",
+                                                 {{"IFCGEOMETRICREPRESENTATIONCONTEXT($,'Model',3,"
+                                                   "1.E-05,#13,$)",
+                                                   contexts}})))
+            .precision.stated;
+    };
+    EXPECT_DOUBLE_EQ(stated("0.01"), 1e-5);
+    EXPECT_DOUBLE_EQ(stated("1.E-05"), 1e-8);
+    EXPECT_DOUBLE_EQ(stated("1."), 1e-3);
+    // None, or one that cannot be meant in this unit: a precision of 2 mm, or of nothing.
+    for (const char* const none : {"$", "0.", "-1.", "2."})
+        EXPECT_EQ(stated(none), 1e-5) << none;
+    const ModelPrecision of_metres = read_scene(kFolder + "house_2x3.ifc").precision;
+    EXPECT_TRUE(of_metres.single_meshes);
+    EXPECT_FALSE(of_metres.single_transforms);
+    // A unit that is given instead of the file's applies to the precision, too.
+    const Scene scaled = read_scene(ModelPath{kFolder + "house_4.ifc", 1.0});
+    EXPECT_DOUBLE_EQ(scaled.precision.stated, 1e-5);
+    // The largest of the contexts for shapes in space.
+    const Scene several = read_scene(folder_.file(
+        "s.ifc", changed("house_4.ifc", {{"#14=IFCGEOMETRICREPRESENTATIONCONTEXT",
+                                          "#910=IFCGEOMETRICREPRESENTATIONCONTEXT($,'Plan',2,0.5,"
+                                          "#13,$);\n#911=IFCGEOMETRICREPRESENTATIONCONTEXT($,"
+                                          "'Model',3,0.02,#13,$);\n"
+                                          "#14=IFCGEOMETRICREPRESENTATIONCONTEXT"}})));
+    EXPECT_DOUBLE_EQ(several.precision.stated, 2e-5);
+}
+
 /// house_4.ifc, which is in millimetres, with a map conversion.
 ///
 /// In          unit: unit of the map, as a STEP entity or $; numbers: arguments from Eastings on.

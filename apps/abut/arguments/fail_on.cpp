@@ -5,7 +5,6 @@
 #include "arguments/common.h"
 
 #include <algorithm>
-#include <array>
 #include <string_view>
 
 namespace abut::command {
@@ -116,29 +115,6 @@ std::vector<std::uint32_t> FailOn::problems(const ClashReport& report,
     for (std::uint32_t i = 0; i < report.clashes.size(); ++i)
         if (is_listed(report.clashes[i]))
             result.push_back(i);
-    return result;
-}
-
-std::vector<std::string> FailOn::warnings(const std::vector<Scene>& models) const {
-    constexpr std::array<std::string_view, 14> kAlways{
-        "kind",  "status", "severity", "rule", "neighbours", "note", "distance",
-        "depth", "gap",    "volume",   "type", "name",       "id",   "file"};
-    std::vector<std::string> result;
-    for (std::string name : query_ ? query_->names() : std::vector<std::string>()) {
-        if (is_of_groups(name))
-            continue;
-        if (name.starts_with("a.") || name.starts_with("b."))
-            name.erase(0, 2);
-        if (std::ranges::find(kAlways, name) != kAlways.end() ||
-            std::ranges::any_of(models, [&](const Scene& model) {
-                return model.properties.find(name).has_value();
-            }))
-            continue;
-        const std::string warning =
-            "no part of a clash has the property \"" + name + "\", which --fail-on asks for";
-        if (std::ranges::find(result, warning) == result.end())
-            result.push_back(warning);
-    }
     return result;
 }
 

@@ -32,9 +32,8 @@ public:
     [[nodiscard]] std::vector<std::uint32_t> problems(const ClashReport& report,
                                                       const std::vector<Scene>& models) const;
 
-    /// Returns a warning for each property that the condition asks for, but no part of a
-    /// clash has. models: as in problems().
-    [[nodiscard]] std::vector<std::string> warnings(const std::vector<Scene>& models) const;
+    /// The condition; without one if the value is a list of words.
+    [[nodiscard]] ClashQuery query() const { return query_.value_or(ClashQuery()); }
 
 private:
     void parse_list(const std::string& words, const std::vector<std::string>& known,

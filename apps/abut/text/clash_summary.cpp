@@ -49,8 +49,8 @@ std::string names(const std::vector<Scene>& models, const Clash& clash) {
 }
 
 std::string row(const std::vector<Scene>& models, const Clash& clash) {
-    return fmt::format("  {} {:>10} m  {}\n", kind_column(clash.kind), number(clash.distance, 4),
-                       names(models, clash));
+    return fmt::format("  {} {:>10} m  {}\n", kind_column(clash.kind),
+                       number(told_distance(clash), 4), names(models, clash));
 }
 
 /// Lists the first few clashes of the wanted kinds in the order of `before`.
@@ -107,6 +107,21 @@ std::string largest(const ClashReport& report, const std::vector<Scene>& models)
 
 } // namespace
 
+std::string touch_in_words(const ClashReport& report) {
+    if (report.touch_source == TouchSource::option)
+        return short_length(report.touch_tolerance);
+    if (report.touch_source == TouchSource::none)
+        return "0 m: exact";
+    return fmt::format("{}{}, {} of {}",
+                       report.least_touch_tolerance < report.touch_tolerance ? "up to " : "",
+                       short_length(report.touch_tolerance), abut::to_string(report.touch_source),
+                       shown(report.touch_file));
+}
+
+std::string touch_in_words(const std::optional<double>& touch_tolerance) {
+    return touch_tolerance ? short_length(*touch_tolerance) : "of the files";
+}
+
 std::string summary(const ClashReport& report, const std::vector<Scene>& models) {
     std::size_t widest = 0;
     for (const auto& model : report.models)
@@ -120,11 +135,11 @@ std::string summary(const ClashReport& report, const std::vector<Scene>& models)
             in_words(model.notes, "  ");
     for (const std::string& warning : report.warnings)
         text += fmt::format("warning: {}\n", shown(warning));
-    text += fmt::format("\nframe       metres, {} up, as {}\nclearance {}, touch tolerance {}, "
-                        "{} candidate pairs\n",
-                        abut::to_string(report.frame.up), shown(report.frame.of),
-                        metres(report.clearance), metres(report.touch_tolerance),
-                        grouped(report.candidates));
+    text +=
+        fmt::format("\nframe       metres, {} up, as {}\nclearance {}, touch {}; "
+                    "{} candidate pairs\n",
+                    abut::to_string(report.frame.up), shown(report.frame.of),
+                    metres(report.clearance), touch_in_words(report), grouped(report.candidates));
     for (const ClashKind kind : kClashKinds) {
         const std::uint64_t count = report.counts.at(static_cast<std::size_t>(kind));
         if (kind == ClashKind::undecided && count == 0)

@@ -3,6 +3,7 @@
 #include <abut/clash.h>
 #include <abut/scene.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,11 @@ namespace abut::command {
 
 /// Returns a report as text for the terminal: models, counts by kind, the deepest and the nearest
 /// pairs, times and memory.
+/// "0.01 mm, precision of a.ifc": the touch tolerance of a report.
+std::string touch_in_words(const ClashReport& report);
+/// The touch tolerance of a question.
+std::string touch_in_words(const std::optional<double>& touch_tolerance);
+
 std::string summary(const ClashReport& report, const std::vector<Scene>& models);
 
 } // namespace abut::command

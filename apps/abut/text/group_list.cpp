@@ -1,6 +1,7 @@
 #include "text/group_list.h"
 
 #include "arguments/common.h"
+#include "text/clash_summary.h"
 
 #include <ctime>
 #include <fmt/chrono.h>
@@ -51,11 +52,11 @@ std::string group_row(const ListedGroup& group) {
 } // namespace
 
 std::string group_list(const GroupReview& review) {
-    std::string text = fmt::format("clearance {}, touch tolerance {}{}{}, groups by {}\n",
-                                   metres(review.clearance), metres(review.touch_tolerance),
-                                   review.self ? ", self" : "",
-                                   review.rules == 0 ? "" : fmt::format(", {} rules", review.rules),
-                                   abut::to_string(review.by));
+    std::string text =
+        fmt::format("clearance {}, touch {}{}{}, groups by {}\n", metres(review.clearance),
+                    touch_in_words(review.touch_tolerance), review.self ? ", self" : "",
+                    review.rules == 0 ? "" : fmt::format(", {} rules", review.rules),
+                    abut::to_string(review.by));
     for (const GroupChange change : kGroupChanges)
         text += fmt::format("{}{} {}", change == GroupChange::fresh ? "  " : ", ",
                             abut::to_string(change),

@@ -27,6 +27,11 @@ std::string metres(double value) {
     return number(value) + " m";
 }
 
+std::string short_length(double value) {
+    constexpr double kCentimetre = 0.01;
+    return value > 0 && value < kCentimetre ? number(1000 * value, 3) + " mm" : metres(value);
+}
+
 std::string metres_below(double value) {
     return number_below(value) + " m";
 }

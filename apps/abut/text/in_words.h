@@ -17,6 +17,8 @@ std::string number_above(double value);
 
 /// Formats a length, such as "0.05 m".
 std::string metres(double value);
+/// The same in millimetres below a centimetre, with few digits: "0.01 mm".
+std::string short_length(double value);
 std::string metres_below(double value);
 std::string metres_above(double value);
 

@@ -172,15 +172,6 @@ void group(StoreClashReport& found, const std::string& store, const GroupOptions
     found.report.grouping = options.by;
 }
 
-/// Warns of properties that no part has. A store lists only the parts of clashes, so it tells nothing
-/// if there are none.
-void warn_of_names(const FailOn& fail_on, bool from_store, StoreClashReport& found) {
-    if (from_store && found.report.clashes.empty())
-        return;
-    for (const std::string& warning : fail_on.warnings(found.models))
-        found.report.warnings.push_back(warning);
-}
-
 OutOfCoreOptions limits_of(const ClashArguments& arguments, Crew* crew) {
     OutOfCoreOptions limits;
     if (arguments.memory)
@@ -223,6 +214,7 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
     const FailOn fail_on(arguments.fail_on, {from_store, !grouping.by.empty()});
     ClashOptions options = arguments.options;
     read_selection(arguments.selection, options);
+    options.asked_later = fail_on.query();
     std::optional<OutputFiles> outputs;
     if (!arguments.out.empty())
         outputs.emplace(arguments.out,
@@ -252,7 +244,6 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
             report.seconds.import = seconds_import;
         }
         group(found, from_store ? arguments.files.front() : "", grouping);
-        warn_of_names(fail_on, from_store, found);
         report.seconds.total = watch.seconds();
     }
     if (bcf)
@@ -295,8 +286,10 @@ Subcommand add_clash(CLI::App& root, CommonOptions& common) {
                   "For a store: do not keep the hierarchies that are built");
     add_length(*app, "--clearance", arguments->options.clearance,
                "Report parts that are nearer than this (default 0: off)");
-    add_length(*app, "--touch", arguments->options.touch_tolerance,
-               "Surfaces that meet no deeper than this only touch (default 0)");
+    add_length(
+        *app, "--touch", arguments->options.touch_tolerance,
+        "Surfaces that meet no deeper than this only touch (default: what the files tell apart; "
+        "0: exact)");
     app->add_flag("--self", arguments->options.self,
                   "With several models: also test the pairs within each");
     add_selection(*app, arguments->selection);

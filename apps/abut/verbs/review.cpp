@@ -3,6 +3,7 @@
 #include <abut/store.h>
 
 #include "commands.h"
+#include "text/clash_summary.h"
 #include "text/group_list.h"
 #include "verbs/review_bcf.h"
 #include "verbs/review_topics.h"
@@ -76,8 +77,8 @@ std::string row(const ListedClash& clash) {
 
 std::string table(const ClashReview& review) {
     std::string text =
-        fmt::format("clearance {}, touch tolerance {}{}{}\n ", metres(review.clearance),
-                    metres(review.touch_tolerance), review.self ? ", self" : "",
+        fmt::format("clearance {}, touch {}{}{}\n ", metres(review.clearance),
+                    touch_in_words(review.touch_tolerance), review.self ? ", self" : "",
                     review.rules == 0 ? "" : fmt::format(", {} rules", review.rules));
     for (const ClashStatus status : kClashStatuses)
         text += fmt::format(" {} {}{}", abut::to_string(status),

@@ -222,6 +222,13 @@ void bind_parts(py::module_& module) {
 }
 
 void bind_scene_class(py::module_& module) {
+    PlainBinder<ModelPrecision>(module, "ModelPrecision", "What a model tells apart.")
+        .field("stated", &ModelPrecision::stated, "metres, as the file states it; 0: it does not")
+        .field("single_meshes", &ModelPrecision::single_meshes,
+               "whether coordinates of meshes are in single precision")
+        .field("single_transforms", &ModelPrecision::single_transforms,
+               "whether transforms of parts are, too")
+        .done();
     py::class_<Scene>(module, "Scene",
                       "Scene(meshes, parts, *, file='', up='z', properties=None)\n\n"
                       "A file's parts, in metres. Parts may share a mesh. From Python: meshes are "
@@ -251,6 +258,7 @@ void bind_scene_class(py::module_& module) {
         .def_property_readonly(
             "map_from_project", [](const Scene& self) { return to_python(self.map_from_project); },
             "matrix of shape (4, 4): from an IFC project to the map that its file names")
+        .def_readonly("precision", &Scene::precision, "ModelPrecision")
         .def("__repr__", [](const Scene& scene) {
             return "<abut.Scene: " + (scene.file.empty() ? "" : scene.file + ", ") +
                    std::to_string(scene.parts.size()) + " parts, " +

@@ -79,6 +79,7 @@ void bind_listed_clashes(py::module_& module) {
         .field("severity", &Clash::severity, "of that rule or cell")
         .field("volume", &Clash::volume, "cubic metres that two solids have in common")
         .field("volume_error", &Clash::volume_error, "bound of its error")
+        .field("rounding", &Clash::rounding, "metres by which the coordinates of both are rounded")
         .field("neighbours", &Clash::neighbours, "Neighbours: how the parts belong together")
         .field("status", &Clash::status, "ClashStatus, of a store alone")
         .field("note", &Clash::note, "of whoever reviewed it")
@@ -186,6 +187,9 @@ void bind_model_summary(py::module_& module) {
         .field("unit", &ClashReport::ModelSummary::unit, "metres per unit of the file")
         .field("up", &ClashReport::ModelSummary::up, "UpAxis of the file")
         .field("notes", &ClashReport::ModelSummary::notes, "list of SceneNote")
+        .field("precision", &ClashReport::ModelSummary::precision, "metres, as the file states it")
+        .field("rounding", &ClashReport::ModelSummary::rounding,
+               "metres; the largest rounding of the coordinates of a part")
         .done();
 }
 
@@ -222,6 +226,23 @@ void bind_memory_and_groups_of_report(PlainBinder<Report>& binder) {
             "number of their last change");
 }
 
+void bind_touch_of_report(PlainBinder<Report>& binder) {
+    binder
+        .property(
+            "touch_tolerance", [](const Report& self) { return self.report.touch_tolerance; },
+            "metres; the largest one if pairs differ")
+        .property(
+            "least_touch_tolerance",
+            [](const Report& self) { return self.report.least_touch_tolerance; },
+            "metres; the smallest one if pairs differ")
+        .property(
+            "touch_source", [](const Report& self) { return to_string(self.report.touch_source); },
+            "'option', 'precision', 'rounding' or 'none'")
+        .property(
+            "touch_file", [](const Report& self) { return self.report.touch_file; },
+            "the model whose precision or rounding gives the tolerance");
+}
+
 void bind_results(py::module_& module) {
     bind_listed_clashes(module);
     bind_model_summary(module);
@@ -241,6 +262,7 @@ void bind_results(py::module_& module) {
     PlainBinder<Report> binder(module, "ClashReport",
                                "Returned by find_clashes. Its length is the number of clashes.");
     bind_memory_and_groups_of_report(binder);
+    bind_touch_of_report(binder);
     binder.property("clashes", &named_clashes, "list of Clash, in the order that `sort` asks for")
         .property("counts", counts, "dict of kind to number")
         .property(
@@ -252,9 +274,6 @@ void bind_results(py::module_& module) {
             "list of str: what makes the result doubtful")
         .property(
             "clearance", [](const Report& self) { return self.report.clearance; }, "metres")
-        .property(
-            "touch_tolerance", [](const Report& self) { return self.report.touch_tolerance; },
-            "metres")
         .property(
             "candidates", [](const Report& self) { return self.report.candidates; },
             "pairs of parts whose boxes are near")
@@ -321,10 +340,10 @@ void bind_clash(py::module_& module) {
     bind_results(module);
     add_verb(
         module, "find_clashes",
-        "find_clashes(models, *, clearance=0, touch_tolerance=0, self=False, rules=[], "
+        "find_clashes(models, *, clearance=0, touch_tolerance=None, self=False, rules=[], "
         "progress=None,\n"
         "             only='', a='', b='', matrix=None, leave_out=[], sort='part')\n"
-        "find_clashes(store, *, clearance=0, touch_tolerance=0, self=False, rules=[], "
+        "find_clashes(store, *, clearance=0, touch_tolerance=None, self=False, rules=[], "
         "progress=None,\n"
         "             memory=512 MiB, order='partition', keep=True, keep_hierarchies=True, "
         "crew=None,\n"
@@ -334,7 +353,8 @@ void bind_clash(py::module_& module) {
         "models            list of Scene or paths, or one of them\n"
         "store             an open Store: models of any size in little memory\n"
         "clearance         metres; pairs without contact that are nearer are reported\n"
-        "touch_tolerance   metres; surfaces that meet no deeper than this are of kind touch\n"
+        "touch_tolerance   metres; surfaces that meet no deeper than this are of kind touch; "
+        "None: what the files tell apart\n"
         "self              also the pairs within each model\n"
         "rules             list of ClashRule, or the path of a JSON or TOML file\n"
         "progress          function of (stage, fraction)\n"

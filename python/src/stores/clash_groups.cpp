@@ -71,7 +71,8 @@ void bind_group_review(py::module_& module) {
     PlainBinder<GroupReview>(module, "GroupReview",
                              "The groups of one question by one grouping, and their changes.")
         .field("clearance", &GroupReview::clearance, "metres")
-        .field("touch_tolerance", &GroupReview::touch_tolerance, "metres")
+        .field("touch_tolerance", &GroupReview::touch_tolerance,
+               "metres; None: what the files tell apart")
         .field("self", &GroupReview::self, "")
         .field("rules", &GroupReview::rules, "how many")
         .field("by", &GroupReview::by, "list of GroupBy")

@@ -47,7 +47,8 @@ void bind_clash_review(py::module_& module) {
     PlainBinder<ClashReview>(module, "ClashReview",
                              "The clashes of one question, as its last job left them.")
         .field("clearance", &ClashReview::clearance, "metres")
-        .field("touch_tolerance", &ClashReview::touch_tolerance, "metres")
+        .field("touch_tolerance", &ClashReview::touch_tolerance,
+               "metres; None: what the files tell apart")
         .field("self", &ClashReview::self, "")
         .field("rules", &ClashReview::rules, "how many")
         .field("finished", &ClashReview::finished, "when the job ended, in seconds since 1970")

@@ -152,7 +152,7 @@ void bind_store_clash(py::module_& module) {
     bind_clash_of_scenes();
     add_verb(
         module, "overlap_graph",
-        "overlap_graph(store, *, clearance=0, touch_tolerance=0, self=False, rules=[], "
+        "overlap_graph(store, *, clearance=0, touch_tolerance=None, self=False, rules=[], "
         "progress=None,\n"
         "              memory=512 MiB, lines=0, keep=False)\n--\n\n"
         "The graph of a store's parts: an edge where boxes are at most the clearance apart.\n\n"

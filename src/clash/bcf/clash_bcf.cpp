@@ -5,6 +5,7 @@
 #include "clash/bcf/topic_fields.h"
 #include "clash/bcf/topic_viewpoint.h"
 #include "clash/groups/group_topics.h"
+#include "clash/report/clash_text.h"
 #include "core/stop.h"
 
 #include <algorithm>
@@ -163,7 +164,7 @@ private:
         for (const std::uint32_t index : clashes) {
             const Clash& clash = report_.clashes[index];
             ++counts.at(static_cast<std::size_t>(clash.kind));
-            deepest = std::min(deepest, clash.distance);
+            deepest = std::min(deepest, told_distance(clash));
             labels.insert(std::string("kind: ") + abut::to_string(clash.kind));
             for (std::size_t side = 0; side < 2; ++side)
                 for (const char* const name : {"storey", "discipline"})
@@ -181,7 +182,9 @@ private:
                 comma = ", ";
             }
         if (deepest < 0)
-            words += fmt::format("; at most {:.3f} m deep", -deepest);
+            words += -deepest < 0.0005 // else it would read as no depth
+                         ? fmt::format("; at most {:.2g} mm deep", -1000 * deepest)
+                         : fmt::format("; at most {:.3f} m deep", -deepest);
         return {std::move(words), {labels.begin(), labels.end()}};
     }
 

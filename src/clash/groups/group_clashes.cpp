@@ -5,6 +5,7 @@
 #include "clash/groups/group_covers.h"
 #include "clash/groups/group_facts.h"
 #include "clash/groups/group_names.h"
+#include "clash/report/clash_text.h"
 #include "core/stop.h"
 #include "math/vector.h"
 
@@ -241,10 +242,10 @@ void ClashGrouper::fill(ClashGroup& group, const std::vector<ClashUnit>& units,
     for (const ClashUnit& unit : units)
         group.clashes.insert(group.clashes.end(), unit.clashes.begin(), unit.clashes.end());
     std::ranges::sort(group.clashes);
-    group.deepest = clashes[group.clashes.front()].distance;
+    group.deepest = told_distance(clashes[group.clashes.front()]);
     for (const std::uint32_t i : group.clashes) {
         ++group.counts.at(static_cast<std::size_t>(clashes[i].kind));
-        group.deepest = std::min(group.deepest, clashes[i].distance);
+        group.deepest = std::min(group.deepest, told_distance(clashes[i]));
         for (const Vec3& point : {clashes[i].point_a, clashes[i].point_b}) {
             group.bounds.lower = min(group.bounds.lower, point);
             group.bounds.upper = max(group.bounds.upper, point);

@@ -47,7 +47,18 @@ std::string comparison_text(const Condition& condition) {
     return text;
 }
 
-/// Returns whether one value of a part passes one value of a comparison.
+bool compares(const Condition& condition, const ConditionSubject& subject) {
+    const bool found = subject.any_value(condition.name, [&](std::string_view value) {
+        return std::ranges::any_of(condition.values, [&](const ConditionValue& wanted) {
+            return passes(condition.op, wanted, value);
+        });
+    });
+    return found != (condition.op == Condition::Operator::differs ||
+                     condition.op == Condition::Operator::lacks);
+}
+
+} // namespace
+
 bool passes(Condition::Operator op, const ConditionValue& wanted, std::string_view value) {
     const auto number = wanted.number ? number_of(value) : std::nullopt;
     if (op == Condition::Operator::equal || op == Condition::Operator::differs)
@@ -69,18 +80,6 @@ bool passes(Condition::Operator op, const ConditionValue& wanted, std::string_vi
     return number ? compare(*number, *wanted.number)
                   : compare(value, std::string_view(wanted.text));
 }
-
-bool compares(const Condition& condition, const ConditionSubject& subject) {
-    const bool found = subject.any_value(condition.name, [&](std::string_view value) {
-        return std::ranges::any_of(condition.values, [&](const ConditionValue& wanted) {
-            return passes(condition.op, wanted, value);
-        });
-    });
-    return found != (condition.op == Condition::Operator::differs ||
-                     condition.op == Condition::Operator::lacks);
-}
-
-} // namespace
 
 std::optional<double> number_of(std::string_view text) {
     if (text.starts_with('+'))

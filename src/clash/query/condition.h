@@ -66,6 +66,10 @@ std::vector<std::string> names_of(const Condition* condition);
 /// As for_each_name, for the words.
 void for_each_word(const Condition& condition, const std::function<void(const std::string&)>& take);
 
+/// Returns whether one value of a thing passes one value of a comparison. `!=` and `!~` pass as `=`
+/// and `~` do: the comparison then holds if none does.
+bool passes(Condition::Operator op, const ConditionValue& wanted, std::string_view value);
+
 /// The thing that a condition is about.
 class ConditionSubject {
 public:

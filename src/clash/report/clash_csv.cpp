@@ -38,7 +38,7 @@ void append_row(TextBuffer& out, const Clash& clash, const std::vector<Scene>& m
     append_cell(out, b.type);
     append_cell(out, models[clash.model[0]].file);
     append_cell(out, models[clash.model[1]].file);
-    append_cell(out, clash.distance);
+    append_cell(out, told_distance(clash));
     append_cells(out, clash.point_a);
     append_cells(out, clash.point_b);
     append_cells(out, clash.direction);

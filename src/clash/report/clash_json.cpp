@@ -30,7 +30,7 @@ ordered_json json_of(const Clash& clash, const std::vector<Scene>& models) {
     put(row, "b_type", b.type);
     put(row, "a_file", models[clash.model[0]].file);
     put(row, "b_file", models[clash.model[1]].file);
-    put(row, "distance", json_number(clash.distance));
+    put(row, "distance", json_number(told_distance(clash)));
     put(row, "point_a", json_point(clash.point_a));
     put(row, "point_b", json_point(clash.point_b));
     put(row, "direction", json_point(clash.direction));
@@ -85,7 +85,9 @@ ordered_json json_of(const ClashReport::ModelSummary& model) {
                      {"parts", model.parts},
                      {"triangles", model.triangles},
                      {"unit", json_number(model.unit)},
-                     {"up", to_string(model.up)}};
+                     {"up", to_string(model.up)},
+                     {"precision", json_number(model.precision)},
+                     {"rounding", json_number(model.rounding)}};
     if (model.notes.empty())
         return row;
     ordered_json notes = ordered_json::array();
@@ -188,6 +190,12 @@ const char* to_string(LeftOut reason) {
     return index < kNames.size() ? kNames.at(index) : "unknown";
 }
 
+const char* to_string(TouchSource source) {
+    constexpr std::array kNames{"option", "precision", "rounding", "none"};
+    const auto index = static_cast<std::size_t>(source);
+    return index < kNames.size() ? kNames.at(index) : "unknown";
+}
+
 const char* to_string(ClashStatus status) {
     switch (status) {
     case ClashStatus::fresh:
@@ -207,7 +215,7 @@ const char* to_string(ClashStatus status) {
 void write_review(JsonLines& out, const ClashReview& review) {
     out.begin_object();
     out.members({{"clearance", json_number(review.clearance)},
-                 {"touch", json_number(review.touch_tolerance)},
+                 {"touch", json_length(review.touch_tolerance)},
                  {"self", review.self},
                  {"rules", review.rules},
                  {"finished", review.finished == 0 ? "" : time_text(review.finished)},
@@ -223,6 +231,9 @@ void write_head(JsonLines& out, const ClashReport& report) {
          {"warnings", report.warnings},
          {"clearance", json_number(report.clearance)},
          {"touch", json_number(report.touch_tolerance)},
+         {"touch_least", json_number(report.least_touch_tolerance)},
+         {"touch_source", to_string(report.touch_source)},
+         {"touch_file", report.touch_file},
          {"candidates", report.candidates},
          {"counts", json_counts(report.counts, kClashKinds)},
          {"neighbours", json_counts(report.neighbours, kNeighbours)},

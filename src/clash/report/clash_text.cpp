@@ -2,7 +2,9 @@
 
 #include <abut/error.h>
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <fmt/format.h>
 
@@ -80,6 +82,11 @@ std::optional<ClashKind> clash_kind_of(std::string_view text) {
         if (text == to_string(kind))
             return kind;
     return std::nullopt;
+}
+
+double told_distance(const Clash& clash) {
+    constexpr double kPicometre = 1e-12;
+    return std::abs(clash.distance) <= std::max(clash.rounding, kPicometre) ? 0 : clash.distance;
 }
 
 const Part& part_of(const Clash& clash, int side, const std::vector<Scene>& models) {

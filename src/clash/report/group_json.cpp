@@ -122,7 +122,7 @@ void write_rows(JsonLines& out, const char* name, const std::vector<Row>& rows) 
 void write_group_review(JsonLines& out, const GroupReview& review) {
     out.begin_object();
     out.members({{"clearance", json_number(review.clearance)},
-                 {"touch", json_number(review.touch_tolerance)},
+                 {"touch", json_length(review.touch_tolerance)},
                  {"self", review.self},
                  {"rules", review.rules},
                  {"grouping", to_string(review.by)},

@@ -3,6 +3,7 @@
 #include <abut/types.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,6 +13,11 @@ namespace abut {
 /// Returns a whole number without ".0", and null for a value that is not finite, because JSON has no
 /// number for it. The text of any other value reads back as the same double.
 nlohmann::ordered_json json_number(double value);
+
+/// Returns null for no length.
+inline nlohmann::ordered_json json_length(const std::optional<double>& length) {
+    return length ? json_number(*length) : nlohmann::ordered_json();
+}
 
 /// Returns [x,y,z].
 nlohmann::ordered_json json_point(const Vec3& point);

@@ -109,7 +109,7 @@ private:
         side("a", 0);
         side("b", 1);
         out.member("rule", rule_index_);
-        column("distance", [](const Clash& clash) { return json_number(clash.distance); });
+        column("distance", [](const Clash& clash) { return json_number(told_distance(clash)); });
         column("triangle_pairs", [](const Clash& clash) { return clash.triangle_pairs; });
         column("point_a", [](const Clash& clash) { return json_point(clash.point_a); });
         column("point_b", [](const Clash& clash) { return json_point(clash.point_b); });

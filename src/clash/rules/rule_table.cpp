@@ -1,6 +1,7 @@
 #include "clash/rules/rule_table.h"
 
 #include "clash/query/glob.h"
+#include "math/vector.h"
 
 #include <algorithm>
 #include <span>
@@ -57,15 +58,20 @@ bool is_among(const std::vector<Neighbours>& list, Neighbours neighbours) {
 
 } // namespace
 
+bool PairReach::holds(const Box3& a, const Box3& b) const {
+    return overlap(a, b, clearance) || (touch > 0 && overlap(a, b, touch + double_rounding(a, b)));
+}
+
 RuleTable::RuleTable(const ClashOptions& options) : options_(options) {
     const auto note = [&](const IgnoreRule& ignore) {
         asks_types_ = asks_types_ || ignore.same_type;
         if (ignore.same_name_prefix > 0)
             lengths_.push_back(ignore.same_name_prefix);
     };
-    ask(options.only, "--only");
-    ask(options.a, "--a");
-    ask(options.b, "--b");
+    known_.ask(options.only, "--only");
+    known_.ask(options.a, "--a");
+    known_.ask(options.b, "--b");
+    known_.ask(options.asked_later, "--fail-on", options);
     for (const ClashRule& rule : options.rules) {
         note(rule.ignore);
         ask(rule.a.query, "rule \"" + rule.name + "\"");
@@ -110,6 +116,7 @@ void RuleTable::note_names(const PartFacts& part) {
 
 void RuleTable::add(const PartFacts& part) {
     neighbours_.add(part);
+    known_.add(part);
     if (!selects_)
         return;
     note_names(part);
@@ -163,29 +170,36 @@ const ClashMatrix::Cell* RuleTable::cell(std::uint32_t a, std::uint32_t b) const
     return index == 0 ? nullptr : &options_.matrix.cells[index - 1];
 }
 
-PairDecision RuleTable::leave_out(LeftOut reason, const ClashRule* rule) const {
-    const double clearance =
-        rule == nullptr ? options_.clearance : rule->clearance.value_or(options_.clearance);
-    return {std::nullopt, reason, clearance};
-}
-
-PairDecision RuleTable::apply(const ClashRule* rule, std::size_t i, std::size_t k) const {
-    if (rule != nullptr && ignores(rule->ignore, i, k))
-        return leave_out(LeftOut::ignored, rule);
-    const auto neighbours = neighbours_.find(i, k);
-    if (neighbours && (is_among(options_.leave_out, *neighbours) ||
-                       (rule != nullptr && is_among(rule->ignore.neighbours, *neighbours))))
-        return leave_out(reason_of(*neighbours), rule);
-    PairTerms terms{options_.clearance, options_.touch_tolerance};
-    terms.neighbours = neighbours;
+PairTerms RuleTable::terms_of(const ClashRule* rule, std::size_t i, std::size_t k) const {
+    PairTerms terms{options_.clearance};
+    std::optional<double> touch = options_.touch_tolerance;
     if (rule != nullptr) {
         terms.clearance = rule->clearance.value_or(terms.clearance);
-        terms.touch = rule->touch_tolerance.value_or(terms.touch);
+        touch = rule->touch_tolerance ? rule->touch_tolerance : touch;
         terms.tolerated = rule->tolerated_depth.value_or(terms.tolerated);
         terms.kinds = bits_of(rule->kinds);
         terms.rule = rule;
     }
-    return {terms};
+    terms.touch = touch ? *touch : precision_.tolerance(i, k);
+    return terms;
+}
+
+PairDecision RuleTable::leave_out(LeftOut reason, const ClashRule* rule, std::size_t i,
+                                  std::size_t k) const {
+    const PairTerms terms = terms_of(rule, i, k);
+    return {std::nullopt, reason, {terms.clearance, terms.touch}};
+}
+
+PairDecision RuleTable::apply(const ClashRule* rule, std::size_t i, std::size_t k) const {
+    if (rule != nullptr && ignores(rule->ignore, i, k))
+        return leave_out(LeftOut::ignored, rule, i, k);
+    const auto neighbours = neighbours_.find(i, k);
+    if (neighbours && (is_among(options_.leave_out, *neighbours) ||
+                       (rule != nullptr && is_among(rule->ignore.neighbours, *neighbours))))
+        return leave_out(reason_of(*neighbours), rule, i, k);
+    PairTerms terms = terms_of(rule, i, k);
+    terms.neighbours = neighbours;
+    return {terms, LeftOut::not_selected, {terms.clearance, terms.touch}};
 }
 
 PairDecision RuleTable::decide(std::size_t i, std::size_t k) const {
@@ -193,24 +207,46 @@ PairDecision RuleTable::decide(std::size_t i, std::size_t k) const {
         return apply(nullptr, i, k);
     const Kind &a = *kinds_[parts_[i]], &b = *kinds_[parts_[k]];
     if (!a.only || !b.only || !((a.a && b.b) || (b.a && a.b)))
-        return leave_out(LeftOut::not_selected, nullptr);
+        return leave_out(LeftOut::not_selected, nullptr, i, k);
     for (std::size_t r = 0; r < options_.rules.size(); ++r)
         if ((a.is_a[r] && b.is_b[r]) || (b.is_a[r] && a.is_b[r]))
             return apply(&options_.rules[r], i, k);
     if (const ClashMatrix::Cell* const found = cell(a.group, b.group)) {
         if (!found->examined)
-            return leave_out(LeftOut::off, &found->terms);
+            return leave_out(LeftOut::off, &found->terms, i, k);
         return apply(&found->terms, i, k);
     }
     if (options_.rules.empty() && options_.matrix.groups.empty())
         return apply(nullptr, i, k);
-    return leave_out(LeftOut::not_selected, nullptr);
+    return leave_out(LeftOut::not_selected, nullptr, i, k);
+}
+
+double RuleTable::largest_reach(std::span<const Box3> boxes) const {
+    PairReach largest{options_.clearance, touch_of_files_or_option()};
+    const auto widen = [&](const ClashRule& rule) {
+        largest.clearance = std::max(largest.clearance, rule.clearance.value_or(0));
+        largest.touch = std::max(largest.touch, rule.touch_tolerance.value_or(0));
+    };
+    std::ranges::for_each(options_.rules, widen);
+    for (const ClashMatrix::Cell& cell : options_.matrix.cells)
+        if (cell.examined)
+            widen(cell.terms);
+    if (largest.touch == 0)
+        return largest.clearance;
+    Box3 all;
+    for (const Box3& box : boxes)
+        all.lower = min(all.lower, box.lower), all.upper = max(all.upper, box.upper);
+    return std::max(largest.clearance, largest.touch + double_rounding(all, all));
 }
 
 std::vector<std::string> RuleTable::names() const {
     std::vector<std::string> result{"assembly"};
     for (const Asked& asked : asked_)
         result.push_back(asked.name);
+    for (std::string& name : known_.names())
+        if (std::ranges::find(kFixedNames, name) == kFixedNames.end() &&
+            std::ranges::find(result, name) == result.end())
+            result.push_back(std::move(name));
     return result;
 }
 
@@ -225,7 +261,7 @@ std::vector<std::string> RuleTable::warnings() const {
 
 std::uint64_t RuleTable::bytes() const {
     return parts_.capacity() * sizeof(std::uint32_t) + prefixes_.capacity() * sizeof(Hash128) +
-           neighbours_.bytes();
+           neighbours_.bytes() + precision_.bytes();
 }
 
 } // namespace abut

@@ -4,10 +4,13 @@
 
 #include "clash/query/part_facts.h"
 #include "clash/rules/known_neighbours.h"
+#include "clash/rules/known_values.h"
+#include "clash/rules/pair_precision.h"
 #include "core/hash.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -17,6 +20,15 @@
 #include <vector>
 
 namespace abut {
+
+/// How far apart two parts may be that clash.
+struct PairReach {
+    double clearance = 0, touch = 0; ///< metres
+
+    /// Whether parts in these boxes may clash. A gap that is longer than the touch tolerance by the
+    /// rounding of doubles alone counts as one of that length.
+    [[nodiscard]] bool holds(const Box3& a, const Box3& b) const;
+};
 
 /// How a pair of parts is tested and reported.
 struct PairTerms {
@@ -31,7 +43,7 @@ struct PairTerms {
 struct PairDecision {
     std::optional<PairTerms> terms{};
     LeftOut reason = LeftOut::not_selected; ///< without terms
-    double clearance = 0;                   ///< without terms: pairs farther apart do not count
+    PairReach reach{};                      ///< also without terms: pairs beyond it do not count
 };
 
 /// Which rules select which parts. It stores a few bytes per part instead of the part's names,
@@ -46,6 +58,13 @@ public:
 
     /// Adds the next part. Parts are numbered from 0.
     void add(const PartFacts& part);
+    /// Adds what is known about the coordinates of the next part. Parts are numbered as with add().
+    ///
+    /// In          as PairPrecision::add.
+    void add_precision(std::uint32_t model, double stated, double rounding) {
+        precision_.add(model, stated, rounding);
+    }
+    [[nodiscard]] const PairPrecision& precision() const noexcept { return precision_; }
     /// Adds the relations of a model. Their parts are those from number `first` on.
     void add(std::span<const PartRelation> relations, std::size_t first) {
         neighbours_.add(relations, first);
@@ -69,8 +88,22 @@ public:
 
     /// Returns whether decide() may return no terms.
     [[nodiscard]] bool leaves_out() const { return selects_ || !options_.leave_out.empty(); }
-
-    /// Returns a warning for each name of a query that no part had a value of.
+    /// Returns a distance beyond which no two of these boxes are within a PairReach of the table.
+    [[nodiscard]] double largest_reach(std::span<const Box3> boxes) const;
+    /// Returns whether two boxes may be within that distance, but not within their PairReach.
+    [[nodiscard]] bool reach_varies() const {
+        return selects_ ||
+               (touch_of_files_or_option() > 0 && touch_of_files_or_option() >= options_.clearance);
+    }
+    /// Checks what the conditions of the options ask for, once all parts are added. Those of rules
+    /// and groups may ask for what no part has: warnings() tells their names.
+    ///
+    /// In          names: returns the names of all properties; called if one is missing.
+    /// Errors      Error{bad_argument}, as KnownValues.
+    void require_known(const std::function<std::vector<std::string>()>& names) const {
+        known_.require(known_.misses_names() ? names() : std::vector<std::string>());
+    }
+    /// Returns a warning for each name of rules and groups that no part had a value of.
     [[nodiscard]] std::vector<std::string> warnings() const;
     /// Bytes in memory.
     [[nodiscard]] std::uint64_t bytes() const;
@@ -95,12 +128,18 @@ private:
         bool found = false;
     };
 
+    /// The largest touch tolerance of pairs whose rule or cell names none.
+    [[nodiscard]] double touch_of_files_or_option() const {
+        return options_.touch_tolerance.value_or(precision_.largest());
+    }
     void ask(const PartQuery& query, const std::string& where);
     void note_names(const PartFacts& part);
     [[nodiscard]] bool ignores(const IgnoreRule& rule, std::size_t i, std::size_t k) const;
     [[nodiscard]] const Hash128* prefix(std::size_t part, std::size_t length) const;
     [[nodiscard]] const ClashMatrix::Cell* cell(std::uint32_t a, std::uint32_t b) const;
-    [[nodiscard]] PairDecision leave_out(LeftOut reason, const ClashRule* rule) const;
+    [[nodiscard]] PairTerms terms_of(const ClashRule* rule, std::size_t i, std::size_t k) const;
+    [[nodiscard]] PairDecision leave_out(LeftOut reason, const ClashRule* rule, std::size_t i,
+                                         std::size_t k) const;
     [[nodiscard]] PairDecision apply(const ClashRule* rule, std::size_t i, std::size_t k) const;
 
     const ClashOptions& options_;
@@ -117,6 +156,8 @@ private:
     std::vector<std::uint32_t> parts_;
     std::vector<Hash128> prefixes_; ///< by part and length; zero if the name is shorter
     KnownNeighbours neighbours_;
+    PairPrecision precision_;
+    KnownValues known_;
 };
 
 } // namespace abut

@@ -2,6 +2,7 @@
 #include <abut/model.h>
 
 #include "clash/classify_pair.h"
+#include "clash/rules/pair_precision.h"
 #include "clash/viewpoint/choose_view.h"
 #include "clash/viewpoint/view_geometry.h"
 #include "core/arguments.h"
@@ -235,9 +236,16 @@ Clash clash_again(const Store& store, const NamedGeometry& named) {
     extend(both, named.parts[1].row.box.lower);
     extend(both, named.parts[1].row.box.upper);
     const double farthest = length(both.upper - both.lower); // no two points are farther apart
+    PairPrecision precision;                                 // that of a job without options
+    for (const auto& [place, row] : named.parts) {
+        const ModelPrecision of_model = store.file().precision(row.model);
+        const Vec3 reach = reach_of(store.file().mesh(row.mesh).box);
+        precision.add(place.model, of_model.stated,
+                      single_rounding(of_model, reach, row.world_from_mesh));
+    }
     std::optional<Clash> clash =
         classify_by_id(part(0), named.parts[0].row.id, part(1), named.parts[1].row.id, farthest,
-                       ClashOptions{}.touch_tolerance);
+                       precision.tolerance(0, 1));
     require(clash.has_value(), "a part of the clash has no surface");
     for (std::size_t i = 0; i < 2; ++i) {
         clash->model.at(i) = named.parts[i].place.model;

@@ -9,6 +9,7 @@
 #include "math/transform.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -61,6 +62,20 @@ void walk(const GlbDocument& document, const Take& take) {
             take(visit.node, node, world);
         }
     }
+}
+
+/// Returns the step between neighbouring coordinates in the frame of a mesh; 0 for floats, whose
+/// step depends on the coordinate.
+double step_of(const GltfElements& positions) {
+    constexpr std::uint16_t kFloat = 5126, kByte = 5120, kUnsignedByte = 5121, kShort = 5122;
+    if (positions.component == kFloat)
+        return 0;
+    if (!positions.is_normalized)
+        return 1;
+    return 1 / (positions.component == kByte           ? 127.0
+                : positions.component == kUnsignedByte ? 255.0
+                : positions.component == kShort        ? 32767.0
+                                                       : 65535.0);
 }
 
 /// Reads the transforms that place a node's mesh several times (EXT_mesh_gpu_instancing).
@@ -154,6 +169,7 @@ public:
                 part.id = ids.unique(id);
                 part.name = found.name.empty() ? part.id : found.name;
                 part.world_from_mesh = world_from_mesh;
+                note_step(mesh.step, world_from_mesh);
                 append(part, properties);
             });
         });
@@ -225,13 +241,26 @@ private:
     struct TakenMesh {
         std::uint32_t number = kUnknown; ///< in this source, or kNoSurface
         std::optional<Colour> colour;
+        double step = 0; ///< the largest step_of its primitives
     };
+
+    /// Points that lie within one step of each other cannot be told apart.
+    void note_step(double step, const Transform& world_from_mesh) {
+        const auto& m = world_from_mesh.m;
+        for (std::size_t axis = 0; step > 0 && axis < 3; ++axis)
+            facts_.precision.stated = std::max(
+                facts_.precision.stated,
+                step * frame().unit * std::hypot(m[3 * axis], m[3 * axis + 1], m[3 * axis + 2]));
+    }
 
     TakenMesh take_mesh(std::uint32_t gltf_mesh) {
         Size size;
         ColourTally colours;
+        double step = 0;
         for_each_surface(gltf_mesh, [&](const GlbDocument::Primitive& primitive) {
-            const std::uint64_t vertices = geometry_->positions(primitive).count;
+            const GltfElements positions = geometry_->positions(primitive);
+            const std::uint64_t vertices = positions.count;
+            step = std::max(step, step_of(positions));
             const auto corners = geometry_->indices(primitive);
             const std::uint64_t count =
                 triangles(primitive.mode, corners ? corners->count : vertices);
@@ -240,10 +269,10 @@ private:
             colours.add(colour_of(primitive), count);
         });
         if (size.triangles == 0)
-            return {kNoSurface, std::nullopt};
+            return {kNoSurface, std::nullopt, 0};
         if (std::max(size.vertices, size.triangles) > kLargestMesh)
             throw Fault(ErrorCode::unsupported, "has a part with more than 4 billion vertices");
-        return {number_of(gltf_mesh, size), colours.largest()};
+        return {number_of(gltf_mesh, size), colours.largest(), step};
     }
 
     [[nodiscard]] std::optional<Colour> colour_of(const GlbDocument::Primitive& primitive) const {

@@ -18,16 +18,17 @@ import {LongTexts} from './long_texts.mjs';
 import {mapFromProject} from './map.mjs';
 import {Products} from './products.mjs';
 import {edgeFaults, withClosedSlits} from './surface.mjs';
-import {metresPerUnit} from './units.mjs';
+import {metresPerUnit, precisionOf} from './units.mjs';
 import {plainFile, zippedFile} from './zip.mjs';
 
 const RESULT = 3;
-const MAGIC = Buffer.from('abutscn4');
+const MAGIC = Buffer.from('abutscn5');
 const END = Buffer.from('abut-end');
 const HEADER_BYTES = 56;
 const Z_UP = 3; // 1 + UpAxis::z
 const ENTRY_BYTES = 8;
 const RELATION_BYTES = 12;
+const ROUNDED_POSITIONS = 1n; // of scene_stream.h
 const IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0];
 // NoteKind of include/abut/scene.h.
 const SPACE = 0;
@@ -140,16 +141,17 @@ class Output {
     }
 
     /**
-     * unit: metres per unit of the file; project: its GlobalId; map: twelve numbers, or null;
-     * knowledge: the result of Knowledge.of.
+     * unit: metres per unit of the file; precision: metres; project: its GlobalId; map: twelve
+     * numbers, or null; knowledge: the result of Knowledge.of.
      */
-    end(unit, project, map, {names, values, counts, entries, relations}) {
+    end(unit, precision, project, map, {names, values, counts, entries, relations}) {
         const sized = text => [Buffer.from(Uint32Array.of(Buffer.byteLength(text)).buffer), Buffer.from(text)];
         const texts = [names, values].map(list => Buffer.concat(list.map(this.textOf).flatMap(sized)));
         const numbers = Uint32Array.of(names.length, values.length, relations.length / RELATION_BYTES,
                                        Buffer.byteLength(project));
         this.#append(Buffer.concat([...this.#parts, ...this.#notes]));
-        for (const bytes of [Float64Array.from(map ?? IDENTITY), numbers, BigUint64Array.of(BigInt(entries.length / ENTRY_BYTES))])
+        for (const bytes of [Float64Array.from(map ?? IDENTITY), Float64Array.of(precision),
+                             BigUint64Array.of(ROUNDED_POSITIONS), numbers, BigUint64Array.of(BigInt(entries.length / ENTRY_BYTES))])
             this.#append(Buffer.from(bytes.buffer));
         const properties = entries.length > 0 ? [counts, entries] : [];
         for (const bytes of [Buffer.from(project), ...texts, ...properties, relations, END])
@@ -403,7 +405,7 @@ async function convert(path, withSpaces, withMap, output) {
         throw fault;
     converter.noteOthers();
     const knowledge = new Knowledge(api, model);
-    output.end(unit, knowledge.project(), map === null ? null : transformOf(map), knowledge.of(converter.parts));
+    output.end(unit, precisionOf(api, model, unit), knowledge.project(), map === null ? null : transformOf(map), knowledge.of(converter.parts));
 }
 
 const output = new Output();

@@ -31,3 +31,24 @@ export function metresPerUnit(api, model) {
     const unit = metresOf(units.find(unit => unit?.UnitType?.value === 'LENGTHUNIT'));
     return unit > 0 && Number.isFinite(unit) ? unit : 1;
 }
+
+// IFC has precisions from 1e-8 to 1e-5 in mind. A file that states none gets the coarsest of these.
+const USUAL_PRECISION_METRES = 1e-5;
+// Nothing is built to a larger one. A file that states it was written with another unit in mind.
+const COARSEST_PRECISION_METRES = 1e-3;
+
+/**
+ * Returns the metres below which the file takes two points for one: the largest Precision of its
+ * contexts for three-dimensional shapes.
+ */
+export function precisionOf(api, model, metresPerUnit) {
+    const contexts = api.GetLineIDsWithType(model, api.GetTypeCodeFromName('IFCGEOMETRICREPRESENTATIONCONTEXT'));
+    let precision = 0;
+    for (let i = 0; i < contexts.size(); ++i) {
+        const context = api.GetLine(model, contexts.get(i));
+        const stated = context?.CoordinateSpaceDimension?.value === 2 ? 0 : context?.Precision?.value * metresPerUnit;
+        if (stated > precision && stated <= COARSEST_PRECISION_METRES)
+            precision = stated;
+    }
+    return precision > 0 ? precision : USUAL_PRECISION_METRES;
+}

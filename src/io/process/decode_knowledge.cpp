@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace abut {
 
@@ -73,6 +74,11 @@ void decode_knowledge(StreamCursor& cursor, Scene& scene) {
                 scene.map_from_project.m.begin());
     if (!stays_finite(scene.map_from_project))
         cursor.fail();
+    if (!(known.precision >= 0) || !std::isfinite(known.precision) ||
+        (known.rounded & ~scene_stream::kRoundedAll) != 0)
+        cursor.fail();
+    scene.precision = {known.precision, (known.rounded & scene_stream::kRoundedPositions) != 0,
+                       known.rounded == scene_stream::kRoundedAll};
     scene.project = cursor.text(known.project_size);
     scene.properties = decode_properties(cursor, known, scene.parts.size());
     scene.relations = decode_relations(cursor, known.relations, scene.parts.size());

@@ -170,6 +170,7 @@ Scene decode_scene(std::span<const std::byte> stream, const ModelPath& path,
 
     for (Part& part : scene.parts)
         scale(part.world_from_mesh, factor);
+    scene.precision.stated *= factor;
     // The map's offset is in metres of the project; a unit that was given instead changes both.
     for (std::size_t i = 9; i < 12; ++i)
         scene.map_from_project.m[i] *= factor;

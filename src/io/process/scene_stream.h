@@ -6,7 +6,7 @@
 /// it; decode_scene checks and decodes it. Byte order is the machine's; nothing is aligned or
 /// padded.
 ///
-///     header   char[8] magic "abutscn4"
+///     header   char[8] magic "abutscn5"
 ///              u32     status: 0 a scene follows; 1 + ErrorCode: an error follows
 ///              u32     bytes of the error's text (0 for a scene)
 ///              u64     meshes
@@ -22,8 +22,10 @@
 ///              bytes | u32 1 if it has a colour, else 0 | u8[4] red, green, blue, alpha (see
 ///              Colour) | the three texts
 ///     note     u32 NoteKind | u32 id, u32 name, u32 type, u32 text: bytes | the four texts
-///     known    f64[12] map_from_project (see Scene; in metres) | u32 names | u32 values
-///              u32 relations | u32 project: bytes | u64 entries | the text of the project
+///     known    f64[12] map_from_project (see Scene; in metres) | f64 precision as stated, in metres
+///              (see ModelPrecision) | u64 rounded to float: 0 nothing, 1 positions, 3 transforms too
+///              u32 names | u32 values | u32 relations | u32 project: bytes | u64 entries
+///              the text of the project
 ///              names: u32 bytes, text | … | values: u32 bytes, text | …
 ///              u32[parts] entries of each part | entries: u32 name, u32 value | …
 ///              relations: u32 a, u32 b, u32 RelationKind | …   (see PartRelation; in any order)
@@ -34,7 +36,7 @@
 /// readers deliver them, or doubles where the IFC converter joins several geometries.
 namespace abut::scene_stream {
 
-inline constexpr char kMagic[8] = {'a', 'b', 'u', 't', 's', 'c', 'n', '4'};
+inline constexpr char kMagic[8] = {'a', 'b', 'u', 't', 's', 'c', 'n', '5'};
 inline constexpr char kEnd[8] = {'a', 'b', 'u', 't', '-', 'e', 'n', 'd'};
 
 struct Header {
@@ -52,10 +54,15 @@ static_assert(sizeof(Header) == 56);
 
 struct Known {
     double map_from_project[12];
+    double precision;
+    std::uint64_t rounded;
     std::uint32_t names, values, relations, project_size;
     std::uint64_t entries;
 };
-static_assert(sizeof(Known) == 120);
+static_assert(sizeof(Known) == 136);
+
+/// Values of Known::rounded.
+inline constexpr std::uint64_t kRoundedPositions = 1, kRoundedAll = 3;
 
 /// Written for an index that its primitive does not contain, so that it is out of range in the
 /// whole mesh, too.

@@ -67,6 +67,8 @@ void StreamWriter::part(const Transform& world_from_mesh, std::uint32_t mesh, st
 void StreamWriter::end() {
     const scene_stream::Known nothing{
         .map_from_project = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0},
+        .precision = 0,
+        .rounded = scene_stream::kRoundedAll, // as Assimp returns them
         .names = 0,
         .values = 0,
         .relations = 0,

@@ -106,6 +106,7 @@ Scene collect_scene(const SceneSource& source, const std::string& file, const Re
     scene.relations = source.facts().relations;
     scene.project = source.facts().project;
     scene.map_from_project = source.facts().map_from_project;
+    scene.precision = source.facts().precision;
     check_scene(scene, faults);
     return scene;
 }

@@ -23,7 +23,8 @@ public:
         finish();
         notes_ = std::move(scene.notes);
         properties_ = std::move(scene.properties);
-        facts_ = {std::move(scene.relations), std::move(scene.project), scene.map_from_project};
+        facts_ = {std::move(scene.relations), std::move(scene.project), scene.map_from_project,
+                  scene.precision};
     }
     [[nodiscard]] std::uint32_t meshes() const override {
         return static_cast<std::uint32_t>(meshes_.size());

@@ -60,6 +60,7 @@ public:
         std::vector<PartRelation> relations;
         std::string project;
         Transform map_from_project;
+        ModelPrecision precision;
     };
     [[nodiscard]] const Facts& facts() const noexcept { return facts_; }
     /// Reads the properties of parts in ascending or nearly ascending order. For one thread.
@@ -94,9 +95,11 @@ public:
     [[nodiscard]] virtual bool streams() const { return true; }
 
 protected:
+    /// For a reader that hands on coordinates in single precision, as all of Abut's own do.
     SceneSource(const FormatFrame& format, const ModelPath& path, const SourceOptions& options)
         : SceneSource(model_frame(format, path, options.read), options) {
         factor_ = scale_of(format, format.unit, frame_);
+        facts_.precision.single_meshes = true;
     }
     /// For a scene whose parts are already in metres.
     SceneSource(const ModelFrame& frame, const SourceOptions& options)

@@ -59,7 +59,7 @@ void require_applicable(const Database& database, const MarkChanges& changes, co
 
 ClashReview review(Database& database, const QuestionRow& question, const Marks& marks) {
     ClashReview result{
-        question.clearance, question.touch_tolerance, question.self, question.rules, 0, {}, {}};
+        question.clearance, question.touch_tolerance(), question.self, question.rules, 0, {}, {}};
     const auto job = find_finished_job(database, question.question);
     result.finished = job ? job->finished : 0;
     for_each_in_history(database, question.question, [&](HistoryRow&& row) {

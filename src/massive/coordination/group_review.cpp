@@ -55,7 +55,7 @@ GroupReview review_grouping(Database& database, const QuestionRow& question,
     const GroupMemory memory = read_memory(database, grouping);
     GroupReview review;
     review.clearance = question.clearance;
-    review.touch_tolerance = question.touch_tolerance;
+    review.touch_tolerance = question.touch_tolerance();
     review.self = question.self;
     review.rules = question.rules;
     review.by = parse_grouping(grouping.by);

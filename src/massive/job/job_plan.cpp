@@ -6,6 +6,7 @@
 #include "core/progress.h"
 #include "massive/work/large_meshes.h"
 #include "massive/work/unit_size.h"
+#include "store/database/property_table.h"
 
 #include <algorithm>
 #include <malloc.h>
@@ -54,11 +55,16 @@ JobPlan make_plan(StoreFile& store, const ClashOptions& options,
     JobPlan plan;
     auto rules = std::make_unique<RuleTable>(options);
     plan.stored = gather_parts(store, rules.get());
+    rules->require_known([&] {
+        return store.with_connection([](Database& database) { return property_names(database); });
+    });
     plan.rules = std::move(rules);
     progress.advance();
     std::vector<IndexPair> pairs =
         find_candidates(plan.stored, *plan.rules, options, &plan.left_out);
     plan.candidates = pairs.size();
+    for (const IndexPair& pair : pairs)
+        plan.touch.add(plan.rules->precision(), pair.a(), pair.b());
     progress.advance();
     if (recorded && out_of_core.keep)
         plan.record = JobRecord::open(store.path(), plan.stored, options, plan.candidates);

@@ -2,6 +2,7 @@
 
 #include <abut/store_clash.h>
 
+#include "clash/touch_of_report.h"
 #include "massive/record/job_record.h"
 #include "massive/work/stored_parts.h"
 #include "massive/work/work_units.h"
@@ -23,6 +24,7 @@ struct JobPlan {
     std::uint64_t hierarchies_room = 0; ///< bytes of built hierarchies that wait to be stored
     std::unique_ptr<JobRecord> record;  ///< null if nothing is recorded
     std::unique_ptr<const RuleTable> rules;
+    TouchOfReport touch;      ///< of all candidates
     LeftOutCounts left_out{}; ///< pairs that are not candidates
 };
 

@@ -16,8 +16,8 @@ namespace abut {
 
 namespace {
 
-std::vector<std::string> warn_of_distant_models(const StoredParts& stored,
-                                                const ClashOptions& options) {
+/// Warnings that follow from the boxes of the models.
+std::vector<std::string> warn_of_boxes(const StoredParts& stored, const ClashOptions& options) {
     std::vector<std::string> files;
     files.reserve(stored.models.size());
     for (const ModelRow& model : stored.models)
@@ -28,7 +28,11 @@ std::vector<std::string> warn_of_distant_models(const StoredParts& stored,
         box.lower = min(box.lower, stored.boxes[i].lower);
         box.upper = max(box.upper, stored.boxes[i].upper);
     }
-    return abut::warn_of_distant_models(files, boxes, largest_clearance(options));
+    std::vector<std::string> warnings =
+        abut::warn_of_distant_models(files, boxes, largest_clearance(options));
+    for (std::string& question : ask_about_lengths(options, boxes))
+        warnings.push_back(std::move(question));
+    return warnings;
 }
 
 } // namespace
@@ -38,14 +42,18 @@ JobResult::JobResult(JobPlan& plan, const ClashOptions& options, StoreFile& stor
     : plan_(plan), options_(options), store_(store) {
     ClashReport& report = result_.report;
     report.clearance = options.clearance;
-    report.touch_tolerance = options.touch_tolerance;
     report.candidates = plan_.candidates;
     for (const ModelRow& model : plan_.stored.models)
         report.models.push_back({model.file, model.parts, model.triangles, model.unit, model.up,
                                  parse_notes(model.notes, store.path())});
+    for (std::uint32_t m = 0; m < report.models.size(); ++m) {
+        report.models[m].precision = plan_.stored.precisions[m].stated;
+        report.models[m].rounding = plan_.rules->precision().rounding_of_model(m);
+    }
+    plan_.touch.tell(options, report);
     if (!plan_.stored.models.empty())
         report.frame = {plan_.stored.models.front().world_up, plan_.stored.models.front().file};
-    report.warnings = warn_of_distant_models(plan_.stored, options);
+    report.warnings = warn_of_boxes(plan_.stored, options);
     for (std::string& warning : plan_.rules->warnings())
         report.warnings.push_back(std::move(warning));
     report.left_out = plan_.left_out;
@@ -64,9 +72,12 @@ JobResult::JobResult(JobPlan& plan, const ClashOptions& options, StoreFile& stor
         }
 }
 
-void JobResult::set_models(Clash& clash) const {
+void JobResult::set_known(Clash& clash) const {
     for (std::size_t side = 0; side < 2; ++side)
         clash.model[side] = plan_.stored.parts[clash.part[side]].model;
+    const auto& boxes = plan_.stored.boxes;
+    clash.rounding = plan_.rules->precision().rounding(clash.part[0], clash.part[1]) +
+                     double_rounding(boxes[clash.part[0]], boxes[clash.part[1]]);
 }
 
 void JobResult::recall() {
@@ -79,7 +90,7 @@ void JobResult::recall() {
     result_.counters.recalled_pairs = plan_.candidates - left;
     found_ = plan_.record->found(plan_.stored);
     for (auto& [clash, left_out] : found_) {
-        set_models(clash);
+        set_known(clash);
         if (left_out)
             continue;
         for (const std::uint32_t part : clash.part) {
@@ -111,7 +122,7 @@ void JobResult::add(TaskResult result) {
     for (TaskResult::Found& found : result.clashes) {
         const IndexPair pair = plan_.units[result.unit].pairs[found.pair];
         found.clash.part = {pair.a(), pair.b()};
-        set_models(found.clash);
+        set_known(found.clash);
         if (!found.left_out)
             for (const std::uint32_t part : found.clash.part)
                 named_.try_emplace(part, *names.at(plan_.stored.parts[part].row));
@@ -174,6 +185,8 @@ StoreClashReport JobResult::finish() {
     move_found();
     for (const ModelRow& model : plan_.stored.models)
         add_model(model);
+    for (std::size_t m = 0; m < result_.models.size(); ++m)
+        result_.models[m].precision = plan_.stored.precisions[m];
     std::unordered_map<std::uint32_t, std::uint32_t> place;
     std::vector<std::vector<std::int64_t>> rows(result_.models.size());
     for (auto& [part, named] : named_) {

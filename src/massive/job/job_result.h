@@ -42,7 +42,8 @@ private:
     /// Adds the properties of the listed parts and the relations between them.
     /// In          rows: those of the parts of each model
     void add_knowledge(std::span<const std::vector<std::int64_t>> rows);
-    void set_models(Clash& clash) const;
+    /// Sets what follows from the parts of a clash, which are indices in the plan's parts.
+    void set_known(Clash& clash) const;
     void move_found();
 
     JobPlan& plan_;

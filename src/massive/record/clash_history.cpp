@@ -107,7 +107,7 @@ HistoryRow row_of(const Clash& clash, const std::vector<Scene>& models) {
         row.clash.type.at(side) = part.type;
         row.clash.file.at(side) = models[clash.model.at(side)].file;
     }
-    row.clash.distance = clash.distance;
+    row.clash.distance = told_distance(clash);
     return row;
 }
 

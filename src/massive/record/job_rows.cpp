@@ -57,7 +57,10 @@ Hash128 question_hash(const ClashOptions& options) {
         for (const std::string& text : texts)
             hash.add(text);
     };
-    hash.add(options.clearance).add(options.touch_tolerance).add(options.self);
+    // No length is negative, so the hash tells "as the files" from every tolerance.
+    hash.add(options.clearance)
+        .add(options.touch_tolerance.value_or(QuestionRow::kTouchOfFiles))
+        .add(options.self);
     const auto add_list = [&](const auto& list) {
         hash.add(std::uint64_t{list.size()});
         for (const auto element : list)
@@ -108,11 +111,11 @@ std::int64_t add_question(Database& database, const ClashOptions& options) {
     const std::int64_t question =
         database.number("SELECT seq FROM sqlite_sequence WHERE name = 'question'") + 1;
     QuestionRow row{question,          hash,
-                    options.clearance, options.touch_tolerance,
+                    options.clearance, options.touch_tolerance.value_or(QuestionRow::kTouchOfFiles),
                     options.self,      options.rules.size()};
     Statement(database, "INSERT INTO question VALUES (?,?,?,?,?,?,?)")
-        .bind(row.question, bytes_of(row.hash), row.clearance, row.touch_tolerance,
-              row.self ? 1 : 0, row.rules, row.checksum())
+        .bind(row.question, bytes_of(row.hash), row.clearance, row.stored_touch, row.self ? 1 : 0,
+              row.rules, row.checksum())
         .run();
     return question;
 }
@@ -122,7 +125,7 @@ std::uint64_t QuestionRow::checksum() const {
         .add(question)
         .add(hash)
         .add(clearance + 0.0)
-        .add(touch_tolerance + 0.0)
+        .add(stored_touch + 0.0)
         .add(self)
         .add(rules)
         .value();
@@ -139,7 +142,7 @@ std::vector<QuestionRow> read_questions(Database& database) {
         if (hash.size() == 2)
             row.hash = {hash[0], hash[1]};
         row.clearance = rows.real(2);
-        row.touch_tolerance = rows.real(3);
+        row.stored_touch = rows.real(3);
         row.self = rows.integer(4) != 0;
         row.rules = static_cast<std::uint64_t>(rows.integer(5));
         if (row.checksum() != static_cast<std::uint64_t>(rows.integer(6)))

@@ -21,10 +21,17 @@ namespace abut {
 struct QuestionRow {
     std::int64_t question = 0;
     Hash128 hash; ///< of the options
-    double clearance = 0, touch_tolerance = 0;
+    double clearance = 0;
+    double stored_touch = 0; ///< the touch tolerance, or kTouchOfFiles
     bool self = false;
     std::uint64_t rules = 0; ///< number of rules
 
+    /// Stands in the column for the tolerance that the files of each pair give.
+    static constexpr double kTouchOfFiles = -1;
+    /// As ClashOptions::touch_tolerance.
+    [[nodiscard]] std::optional<double> touch_tolerance() const {
+        return stored_touch == kTouchOfFiles ? std::nullopt : std::optional(stored_touch);
+    }
     [[nodiscard]] std::uint64_t checksum() const;
 };
 std::vector<QuestionRow> read_questions(Database& database);

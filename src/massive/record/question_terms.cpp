@@ -134,7 +134,7 @@ json terms_json(const ClashOptions& options) {
     for (const ClashRule& rule : options.rules)
         rules.push_back(rule_json(rule));
     return {{"clearance", options.clearance},
-            {"touch", options.touch_tolerance},
+            {"touch", length_json(options.touch_tolerance)},
             {"self", options.self},
             {"rules", rules},
             {"matrix", matrix_json(options.matrix)},
@@ -148,7 +148,7 @@ json terms_json(const ClashOptions& options) {
 ClashOptions terms_from(const json& value) {
     ClashOptions options;
     options.clearance = value.at("clearance").get<double>();
-    options.touch_tolerance = value.at("touch").get<double>();
+    options.touch_tolerance = length_from(value.at("touch"));
     options.self = value.at("self").get<bool>();
     for (const json& rule : value.at("rules"))
         options.rules.push_back(rule_from(rule));
@@ -216,7 +216,7 @@ ClashOptions read_terms(Database& database, std::int64_t question) {
     }
     ClashOptions plain;
     plain.clearance = row.clearance;
-    plain.touch_tolerance = row.touch_tolerance;
+    plain.touch_tolerance = row.touch_tolerance();
     plain.self = row.self;
     if (question_hash(plain) != row.hash)
         throw Error(ErrorCode::bad_argument, database.path(),

@@ -25,10 +25,14 @@ public:
     RuleFeeder(StoreFile& store, RuleTable& rules) : store_(store), rules_(rules) {}
 
     /// In          model: with its index; the same until the next flush().
-    void add(const ModelRow& model, std::uint32_t index, const PartRow& part) {
+    ///             reach: as reach_of, of the part's mesh
+    void add(const ModelRow& model, std::uint32_t index, const PartRow& part,
+             const ModelPrecision& precision, const Vec3& reach) {
         rows_.push_back(part.part);
         parts_.push_back({part.id, part.name, part.type, 0, {}});
         model_ = &model, index_ = index;
+        rules_.add_precision(index, precision.stated,
+                             single_rounding(precision, reach, part.world_from_mesh));
         if (rows_.size() == kParts)
             flush();
     }
@@ -70,7 +74,9 @@ private:
 };
 
 /// Reads the table of meshes. Returns by mesh whether it bounds no solid.
-std::vector<bool> gather_meshes(StoreFile& store, StoredParts& result) {
+///
+/// In          reach: receives reach_of each mesh; null if it is not wanted.
+std::vector<bool> gather_meshes(StoreFile& store, StoredParts& result, std::vector<Vec3>* reach) {
     std::vector<MeshRow> large;
     std::vector<bool> is_surface;
     store.for_each_mesh([&](const MeshRow& mesh) {
@@ -85,6 +91,8 @@ std::vector<bool> gather_meshes(StoreFile& store, StoredParts& result) {
             large.push_back(mesh);
         }
         result.meshes.push_back(stored);
+        if (reach != nullptr)
+            reach->push_back(reach_of(mesh.box));
     });
     result.meshes.shrink_to_fit(); // the table stays in memory for the whole job
     for (std::size_t i = 0; i < large.size(); ++i)
@@ -99,7 +107,9 @@ std::vector<bool> gather_meshes(StoreFile& store, StoredParts& result) {
 
 StoredParts gather_parts(StoreFile& store, RuleTable* rules) {
     StoredParts result;
-    const std::vector<bool> is_surface = gather_meshes(store, result);
+    std::vector<Vec3> reach; // by mesh, if rules ask for it
+    const std::vector<bool> is_surface =
+        gather_meshes(store, result, rules == nullptr ? nullptr : &reach);
     result.models = store.models();
     // A part's row takes more bytes of the file than kLeastRow. The bound keeps a damaged number of
     // parts from reserving too much memory.
@@ -117,6 +127,8 @@ StoredParts gather_parts(StoreFile& store, RuleTable* rules) {
     std::optional<RuleFeeder> feeder =
         rules == nullptr ? std::nullopt : std::make_optional<RuleFeeder>(store, *rules);
     for (std::uint32_t m = 0; m < result.models.size(); ++m) {
+        const ModelPrecision precision = store.precision(result.models[m].model);
+        result.precisions.push_back(precision);
         store.for_each_part(result.models[m], [&](const PartRow& part) {
             // The meshes are sorted by number.
             const auto mesh =
@@ -132,7 +144,7 @@ StoredParts gather_parts(StoreFile& store, RuleTable* rules) {
                                     static_cast<std::uint32_t>(std::min<std::uint64_t>(
                                         part.generation, kLastGeneration))});
             if (feeder)
-                feeder->add(result.models[m], m, part);
+                feeder->add(result.models[m], m, part, precision, reach[result.parts.back().mesh]);
         });
         if (feeder)
             feeder->flush();
@@ -206,13 +218,12 @@ std::vector<IndexPair> find_candidates(const StoredParts& stored, const RuleTabl
         return !across || stored.parts[i].model != stored.parts[j].model;
     };
     std::vector<IndexPair> pairs =
-        overlapping_boxes(stored.boxes, largest_clearance(options), filter);
-    if (!rules.leaves_out())
+        overlapping_boxes(stored.boxes, rules.largest_reach(stored.boxes), filter);
+    if (!rules.leaves_out() && !rules.reach_varies())
         return pairs;
     const auto out_of_reach = [&](const IndexPair& pair) {
         const PairDecision decision = rules.decide(pair.a(), pair.b());
-        if (!overlap(stored.boxes[pair.a()], stored.boxes[pair.b()],
-                     decision.terms ? decision.terms->clearance : decision.clearance))
+        if (!decision.reach.holds(stored.boxes[pair.a()], stored.boxes[pair.b()]))
             return true;
         if (!decision.terms && left_out != nullptr)
             ++left_out->at(static_cast<std::size_t>(decision.reason));

@@ -51,8 +51,9 @@ struct PairCell {
 
 struct StoredParts {
     std::vector<ModelRow> models;
-    std::vector<StoredPart> parts; ///< by model, then in the file's order
-    std::vector<Box3> boxes;       ///< world boxes, by part
+    std::vector<ModelPrecision> precisions; ///< by model
+    std::vector<StoredPart> parts;          ///< by model, then in the file's order
+    std::vector<Box3> boxes;                ///< world boxes, by part
     std::vector<StoredMesh> meshes;
     std::vector<StoredLargeMesh> large; ///< sorted by mesh
     ClashReport::Surfaces surfaces;     ///< the parts that bound no solid
@@ -97,8 +98,8 @@ StoredParts gather_parts(StoreFile& store, RuleTable* rules = nullptr);
 /// The number of pairs that are left out, by LeftOut.
 using LeftOutCounts = decltype(ClashReport::left_out);
 
-/// Returns the candidate pairs, sorted: pairs of parts whose boxes are within the clearance of each
-/// other and which the options and their rules select.
+/// Returns the candidate pairs, sorted: pairs of parts whose boxes are within the reach of their
+/// terms and which the options and their rules select.
 ///
 /// In          left_out: receives the numbers of other pairs; may be null.
 std::vector<IndexPair> find_candidates(const StoredParts& parts, const RuleTable& rules,

@@ -48,20 +48,21 @@ class TermsOfTask {
 public:
     TermsOfTask(Task& task, const RuleTable& rules) : task_(task), rules_(rules) {}
 
-    std::uint32_t index(const IndexPair& pair) {
+    void set(const IndexPair& pair, Task::Pair& of_task) {
         PairTerms terms = rules_.terms(pair.a(), pair.b()).value_or(PairTerms());
+        of_task.touch = std::exchange(terms.touch, 0);
         const ClashRule* const rule = std::exchange(terms.rule, nullptr);
         const auto [at, is_new] = places_.try_emplace({rule, terms.neighbours}, places_.size());
         if (is_new)
             task_.terms.push_back(
                 {terms, rule == nullptr ? "" : rule->name, rule == nullptr ? "" : rule->severity});
-        return at->second;
+        of_task.terms = at->second;
     }
 
 private:
     Task& task_;
     const RuleTable& rules_;
-    /// Pairs of one rule have equal terms, but for their neighbours.
+    /// Pairs of one rule have equal terms, but for their neighbours and touch tolerances.
     std::map<std::pair<const ClashRule*, std::optional<Neighbours>>, std::uint32_t> places_;
 };
 
@@ -97,11 +98,11 @@ Task make_task(const StoredParts& stored, const std::vector<WorkUnit>& units, st
         task.parts.push_back({p.row, mesh, p.model});
     }
     for (const IndexPair& pair : work.pairs)
-        task.pairs.push_back({place_of(parts, pair.a()), place_of(parts, pair.b()), 0});
+        task.pairs.push_back({place_of(parts, pair.a()), place_of(parts, pair.b()), 0, 0, 0});
     if (rules != nullptr) {
         TermsOfTask terms(task, *rules);
         for (std::size_t k = 0; k < work.pairs.size(); ++k)
-            task.pairs[k].terms = terms.index(work.pairs[k]);
+            terms.set(work.pairs[k], task.pairs[k]);
     }
     if (!task.large.empty())
         task.large_pairs = large_pairs(stored, work.pairs);

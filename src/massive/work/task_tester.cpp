@@ -83,7 +83,9 @@ PairAnswer TaskTester::test(const Loaded& loaded, const Task::Pair& pair) const 
                          mesh < whole ? nullptr : loaded.large[mesh - whole], row.world_from_mesh,
                          row.box};
     };
-    PairAnswer answer = test_pair(placed(a, pair.a), a.id, placed(b, pair.b), b.id, terms.numbers);
+    PairTerms numbers = terms.numbers;
+    numbers.touch = pair.touch;
+    PairAnswer answer = test_pair(placed(a, pair.a), a.id, placed(b, pair.b), b.id, numbers);
     if (answer.clash) {
         answer.clash->rule = terms.rule;
         answer.clash->severity = terms.severity;

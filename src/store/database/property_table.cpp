@@ -341,4 +341,12 @@ void check_properties(Database& database) {
         property_damage(database, "properties or relations of a part that is missing");
 }
 
+std::vector<std::string> property_names(Database& database) {
+    std::vector<std::string> names;
+    Statement rows(database, "SELECT text FROM property_name ORDER BY text");
+    while (rows.step())
+        names.push_back(rows.text(0));
+    return names;
+}
+
 } // namespace abut

@@ -66,6 +66,9 @@ void remove_relations(Database& database, std::int64_t model);
 void write_relations(Database& database, std::span<const PartRelation> relations,
                      std::span<const std::int64_t> rows);
 
+/// Returns the names of all properties, ascending.
+std::vector<std::string> property_names(Database& database);
+
 /// Removes names and values that no part has any more.
 void remove_unused_texts(Database& database);
 

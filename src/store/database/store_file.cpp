@@ -4,6 +4,7 @@
 
 #include "io/file/fault.h"
 #include "store/database/folder_lock.h"
+#include "store/database/precision_table.h"
 #include "store/database/property_table.h"
 
 #include <algorithm>
@@ -131,6 +132,10 @@ void StoreFile::for_each_part(const ModelRow& model,
             throw Error(ErrorCode::malformed, path_,
                         "is damaged: parts of model " + model.file + " are missing");
     });
+}
+
+ModelPrecision StoreFile::precision(std::int64_t model) {
+    return with_connection([&](Database& database) { return read_precision(database, model); });
 }
 
 PartRow StoreFile::part(std::int64_t part) {

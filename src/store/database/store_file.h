@@ -50,6 +50,9 @@ public:
     /// All models by number, which is the order of their first import.
     std::vector<ModelRow> models();
 
+    /// As Scene::precision, of a model by its number.
+    ModelPrecision precision(std::int64_t model);
+
     /// Visits the parts of all models, or of one, in the order of the file. A model that is being
     /// imported still has its former parts. Checks that no part is missing.
     void for_each_part(const std::function<void(const PartRow&)>& take);

@@ -2,6 +2,7 @@
 
 #include "core/progress.h"
 #include "math/vector.h"
+#include "store/database/precision_table.h"
 #include "store/database/property_table.h"
 
 #include <algorithm>
@@ -51,6 +52,7 @@ public:
           add_box_(database, "INSERT OR FAIL INTO part_box VALUES (?,?,?,?,?,?,?)"),
           remove_(database, "DELETE FROM part WHERE part = ?"),
           remove_box_(database, "DELETE FROM part_box WHERE part = ?"),
+          same_precision_(read_precision(database, model.model) == source.facts().precision),
           next_(database.number("SELECT seq FROM sqlite_sequence WHERE name = 'part'") + 1) {}
 
     PartChanges run() {
@@ -86,6 +88,8 @@ public:
             if (!seen[i])
                 remove(known[i]);
         write_relations(database_, source_.facts().relations, numbers_);
+        if (!same_precision_)
+            write_precision(database_, model_.model, source_.facts().precision);
         return changes_;
     }
 
@@ -130,9 +134,10 @@ private:
         part.part = before.part;
         part.generation = before.generation;
         const bool same_box = before.box == part.box;
-        const bool same = same_box && before.mesh == part.mesh && before.name == part.name &&
-                          before.type == part.type && before.colour == part.colour &&
-                          before.properties == part.properties &&
+        // Another precision of the file changes the touch tolerance of all its pairs.
+        const bool same = same_precision_ && same_box && before.mesh == part.mesh &&
+                          before.name == part.name && before.type == part.type &&
+                          before.colour == part.colour && before.properties == part.properties &&
                           before.relations == part.relations &&
                           same_bits(before.world_from_mesh, part.world_from_mesh);
         if (same && before.number == part.number)
@@ -192,6 +197,7 @@ private:
     ModelRow& model_;
     Database& database_;
     Statement find_, add_, add_box_, remove_, remove_box_;
+    bool same_precision_;
     std::int64_t next_;
     PartChanges changes_;
 };

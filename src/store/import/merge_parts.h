@@ -18,7 +18,8 @@ struct PartChanges {
 /// transaction. Whoever opens the store sees the model either as it was or as it is now.
 ///
 /// A part is identified by its id. A part whose mesh, transform, box, name, type, properties or
-/// relations have changed gets the generation of this import; the others keep theirs.
+/// relations have changed gets the generation of this import; the others keep theirs, unless the
+/// precision of the file has changed.
 ///
 /// In/out      model: its row with all that is known of the file. Sets parts, triangles, parts_sum
 ///             and importing, and generation if anything changed.

@@ -2,6 +2,7 @@
 #include <abut/store.h>
 
 #include "store/database/generation.h"
+#include "store/database/precision_table.h"
 #include "store/database/property_table.h"
 #include "store/database/schema.h"
 #include "store/import/model_file.h"
@@ -54,6 +55,7 @@ RemovalReport remove_models(const std::vector<std::string>& files, const std::st
                 Statement(database, sql).bind(model.model).run();
             report.models.push_back({model.file, model.parts});
         }
+        remove_lost_precisions(database);
         remove_unused_texts(database);
         transaction.commit();
     }

@@ -285,7 +285,7 @@ on = false
     // A condition that is longer as it is written than may be read is not kept.
     std::string types = "type = Wall";
     for (int i = 0; i < 30000; ++i)
-        types += ",x";
+        types += ",x*";
     clash(store_, {"--only", types});
     EXPECT_EQ(run_abut({"info", store_, "--verify", "--quiet"}).status, 0);
     expect_refused(review({"--bcf-out", bcf_}), {store_, "rules"});

@@ -42,13 +42,14 @@ json between(const json& report, const std::string& one, const std::string& othe
 }
 
 TEST_F(ClashTest, FindsOneOfEachKind) {
-    const Outcome outcome = clash({"--clearance", "0.05", "--json"});
+    const Outcome outcome = clash({"--clearance", "0.05", "--touch", "0", "--json"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
     const json report = outcome.json();
     EXPECT_EQ(report["counts"], counts(1, 1, 1, 1, 1));
     EXPECT_EQ(report["clearance"], 0.05);
     EXPECT_EQ(report["touch"], 0.0);
+    EXPECT_EQ(report["touch_source"], "option");
     ASSERT_EQ(report["clashes"].size(), 5U);
 
     const json hard = between(report, "h1", "h2");
@@ -66,6 +67,29 @@ TEST_F(ClashTest, FindsOneOfEachKind) {
     EXPECT_EQ(near["triangle_pairs"], 0);
     EXPECT_EQ(near["a_type"], "Pipe");
     EXPECT_EQ(near["a_file"], file_);
+}
+
+TEST_F(ClashTest, TouchesToWhatTheFileTellsApartUnlessATouchToleranceIsGiven) {
+    const Outcome outcome = clash({"--json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const json report = outcome.json();
+    // Parts in single precision, some 40 m from the origin of their meshes at most.
+    EXPECT_EQ(report["touch_source"], "rounding");
+    EXPECT_EQ(report["touch_file"], file_);
+    EXPECT_GT(report["touch"].get<double>(), 1e-9);
+    EXPECT_LT(report["touch"].get<double>(), 2e-5);
+    EXPECT_LE(report["touch_least"], report["touch"]);
+    EXPECT_EQ(report["models"][0]["precision"], 0.0);
+    EXPECT_GT(report["models"][0]["rounding"], 0.0);
+    EXPECT_NE(clash({}).out.find(", rounding of " + file_ + "; "), std::string::npos);
+    EXPECT_NE(clash({"--touch", "1mm"}).out.find("touch 1 mm; "), std::string::npos);
+    EXPECT_NE(clash({"--touch", "0"}).out.find("touch 0 m; "), std::string::npos);
+}
+
+TEST_F(ClashTest, ALengthLikeAUnitForgottenIsAskedBack) {
+    EXPECT_NE(clash({"--clearance", "50"}).out.find("50 m: did you mean 50mm?"), std::string::npos);
+    EXPECT_NE(clash({"--touch", "20"}).out.find("20 m: did you mean 20mm?"), std::string::npos);
+    EXPECT_EQ(clash({"--clearance", "50mm"}).out.find("did you mean"), std::string::npos);
 }
 
 TEST_F(ClashTest, HasTheKeysThatTheGuidePromises) {

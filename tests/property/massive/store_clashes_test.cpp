@@ -280,6 +280,7 @@ TEST(OverlapGraph, IsKeptForSqlAndCountsLargeMeshes) {
         for (const double clearance : {0.0, 0.05}) { // the second graph replaces the first
             ClashOptions options;
             options.clearance = clearance;
+            options.touch_tolerance = 0; // the table below knows no precisions
             const OutOfCoreOptions limits{.memory =
                                               round % 2 == 1 ? std::uint64_t{64} << 20 : 800'000};
             const GraphReport graph = overlap_graph(opened, options, limits, 0, true);

@@ -143,12 +143,13 @@ TEST_F(ClashWriters, JsonHasTheKeysInOrder) {
     const Sample sample;
     const ordered_json root = ordered_json::parse(to_json(sample.report, sample.models));
     using Names = std::vector<std::string>;
-    EXPECT_EQ(keys(root),
-              (Names{"models", "frame", "warnings", "clearance", "touch", "candidates", "counts",
-                     "neighbours", "left_out", "clashes", "seconds", "peak_rss_mib"}));
-    EXPECT_EQ(keys(root["models"][0]), (Names{"file", "parts", "triangles", "unit", "up"}));
-    EXPECT_EQ(keys(root["models"][1]),
-              (Names{"file", "parts", "triangles", "unit", "up", "notes"}));
+    EXPECT_EQ(keys(root), (Names{"models", "frame", "warnings", "clearance", "touch", "touch_least",
+                                 "touch_source", "touch_file", "candidates", "counts", "neighbours",
+                                 "left_out", "clashes", "seconds", "peak_rss_mib"}));
+    EXPECT_EQ(keys(root["models"][0]),
+              (Names{"file", "parts", "triangles", "unit", "up", "precision", "rounding"}));
+    EXPECT_EQ(keys(root["models"][1]), (Names{"file", "parts", "triangles", "unit", "up",
+                                              "precision", "rounding", "notes"}));
     EXPECT_EQ(keys(root["models"][1]["notes"][0]), (Names{"kind", "id", "name", "type", "text"}));
     EXPECT_EQ(keys(root["frame"]), (Names{"up", "unit", "of"}));
     EXPECT_EQ(keys(root["counts"]),
@@ -166,8 +167,8 @@ TEST_F(ClashWriters, JsonValuesReadBackAsTheyWere) {
     EXPECT_EQ(
         root["models"],
         json::parse(
-            R"([{"file": "models/structure.glb", "parts": 2, "triangles": 24, "unit": 1, "up": "y"},
-                              {"file": "models/pipes.glb", "parts": 2, "triangles": 1000, "unit": 0.001, "up": "z",
+            R"([{"file": "models/structure.glb", "parts": 2, "triangles": 24, "unit": 1, "up": "y", "precision": 0, "rounding": 0},
+                              {"file": "models/pipes.glb", "parts": 2, "triangles": 1000, "unit": 0.001, "up": "z", "precision": 0, "rounding": 0,
                                "notes": [{"kind": "cut_away", "id": "id \"3\"", "name": "<wall>", "type": "IfcWall",
                                           "text": "is gone"}]}])"));
     EXPECT_EQ(root["frame"],

@@ -322,7 +322,10 @@ TEST(FindClashes, GroupsOfModelsThatShareNoSpaceAreNamed) {
     ASSERT_EQ(warnings.size(), 2U);
     EXPECT_EQ(warnings[0], "the boxes of a and e are 2 m apart: they share no space");
     EXPECT_EQ(warnings[1], "the boxes of c and b are 100 km apart: they share no space");
-    EXPECT_EQ(find_clashes(models, {.clearance = 2}).warnings.size(), 1U);
+    const auto reaching = find_clashes(models, {.clearance = 2}).warnings;
+    ASSERT_EQ(reaching.size(), 2U);
+    EXPECT_EQ(reaching[0], warnings[1]);
+    EXPECT_EQ(reaching[1], "a clearance of 2 m: did you mean 2mm? The largest model measures 1 m");
     EXPECT_TRUE(find_clashes({at("a", 0), Scene{}, at("c", 1)}, {}).warnings.empty());
     EXPECT_TRUE(find_clashes({at("a", 0)}, {}).warnings.empty());
 }

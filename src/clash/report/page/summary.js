@@ -35,6 +35,15 @@ function neighbourCounts() {
 }
 
 const inMillimetres = (metres) => (metres === null ? 'not given' : `${+(metres * 1000).toPrecision(12)} mm`);
+/** The touch tolerance, and which file gives it if nobody named one. */
+function touchInWords() {
+  const whole = report.touch === null ? null : +report.touch.toPrecision(2);
+  const upTo = report.touch_least < report.touch ? 'up to ' : '';
+  if (report.touch_source === 'precision' || report.touch_source === 'rounding')
+    return `${upTo}${inMillimetres(whole)}, ${report.touch_source} of ${baseName(report.touch_file)}`;
+  return inMillimetres(report.touch);
+}
+
 const inSeconds = (value) => (value === null ? '–' : `${value < 10 ? value.toFixed(2) : value.toFixed(1)} s`);
 
 /** Texts for the kinds of notes, which tell what became of products of a model. */
@@ -70,7 +79,7 @@ function showSummary() {
   byId('facts').append(
     fact('Frame', `metres, ${report.frame.up} up${report.frame.of ? `, as ${baseName(report.frame.of)}` : ''}`),
     fact('Clearance', inMillimetres(report.clearance)),
-    fact('Touch tolerance', inMillimetres(report.touch)),
+    fact('Touch tolerance', touchInWords()),
     fact('Candidate pairs', wholeNumber.format(report.candidates)),
     fact('Time', inSeconds(total)),
     fact('Peak memory', `${wholeNumber.format(Math.round(report.peak_rss_mib ?? 0))} MiB`),
@@ -87,7 +96,7 @@ function showSummary() {
     fact('', `Import ${inSeconds(reading)} · hierarchies ${inSeconds(build)} · broad phase ${inSeconds(broad)}` +
       ` · narrow phase ${inSeconds(narrow)}`, 'wide soft'));
   byId('digest').textContent = `${report.models.length} ${report.models.length === 1 ? 'model' : 'models'}` +
-    ` · clearance ${inMillimetres(report.clearance)} · touch ${inMillimetres(report.touch)}` +
+    ` · clearance ${inMillimetres(report.clearance)} · touch ${touchInWords()}` +
     ` · ${wholeNumber.format(report.candidates)} candidate pairs · ${inSeconds(total)}`;
   byId('summary').open = innerHeight >= 640 && innerWidth >= 1000 && !report.building;
   byId('cut').textContent = `Only the first ${wholeNumber.format(MOST_PRINTED)} of these clashes are printed.`;

@@ -8,7 +8,13 @@ const signed = (value, digits) => {
   const text = value.toFixed(digits);
   return text.replace('-', Number(text) === 0 ? '' : MINUS);
 };
-const millimetres = (metres) => (metres === null ? '' : metres === 0 ? '0' : signed(metres * 1000, 2));
+/** Two digits after the point; more for a length that would look like none. */
+const millimetres = (metres) => {
+  if (metres === null || metres === 0)
+    return metres === null ? '' : '0';
+  const size = Math.abs(metres * 1000);
+  return signed(metres * 1000, size >= 0.005 ? 2 : Math.min(9, Math.ceil(-Math.log10(size))));
+};
 /** Cubic metres as litres. */
 const litres = (volume) => new Intl.NumberFormat('en', { maximumSignificantDigits: 3 }).format(1000 * volume);
 const orNoName = (text) => text || '(no name)';
