@@ -243,11 +243,12 @@ void abut_scene_free(abut_scene* scene);
 #define ABUT_TOUCH_OF_FILES (-1.0)
 
 typedef struct abut_clash_options {
-    double clearance, touch_tolerance; /**< metres, not negative; the latter or ABUT_TOUCH_OF_FILES */
-    int self;                          /**< not 0: also within each of several models */
-    const char* rules;                 /**< path of a file of rules; NULL: none */
-    abut_progress progress;            /**< NULL: none */
-    void* user;                        /**< handed to `progress` */
+    double clearance,
+        touch_tolerance;    /**< metres, not negative; the latter or ABUT_TOUCH_OF_FILES */
+    int self;               /**< not 0: also within each of several models */
+    const char* rules;      /**< path of a file of rules; NULL: none */
+    abut_progress progress; /**< NULL: none */
+    void* user;             /**< handed to `progress` */
 } abut_clash_options;
 
 /** The result of a search for clashes, as text. */

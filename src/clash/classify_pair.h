@@ -23,7 +23,8 @@ struct ClashPart {
 ///
 /// In          clearance, touch: metres, not negative.
 /// Accuracy    whether surfaces meet, whether they cross and whether a part is contained are
-///             decided exactly. The distance of parts that do not meet is exact to double rounding.
+///             decided exactly; `hard`, `touch` and `duplicate` at a touch tolerance are proven
+///             (meeting_kind.h). The distance of parts that do not meet is exact to double rounding.
 ///             The depth of a `hard` clash is reached at its witness points; it is the largest to 1
 ///             %, or as near as 200 samples of each surface come (1,000 as long as none has reached
 ///             a depth). A part in blocks gets the kind, distance and contacts of the whole model,

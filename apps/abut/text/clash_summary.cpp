@@ -34,8 +34,8 @@ std::string kind_text(ClashKind kind) {
 
 /// Returns kind_text, coloured by the severity of the kind.
 std::string kind_column(ClashKind kind) {
-    const bool is_bad = kind == ClashKind::hard || kind == ClashKind::contained ||
-                        kind == ClashKind::undecided;
+    const bool is_bad =
+        kind == ClashKind::hard || kind == ClashKind::contained || kind == ClashKind::undecided;
     return coloured(is_bad ? Colour::bad : Colour::doubtful, kind_text(kind));
 }
 

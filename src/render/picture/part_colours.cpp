@@ -86,12 +86,10 @@ struct ClashColour {
     Colour colour;
 };
 /// The kinds from the worst on.
-constexpr ClashColour kClashColours[]{{ClashKind::hard, {214, 50, 40}},
-                                      {ClashKind::undecided, {190, 90, 60}},
-                                      {ClashKind::contained, {156, 60, 170}},
-                                      {ClashKind::duplicate, {82, 84, 196}},
-                                      {ClashKind::touch, {236, 146, 40}},
-                                      {ClashKind::clearance, {236, 208, 72}}};
+constexpr ClashColour kClashColours[]{
+    {ClashKind::hard, {214, 50, 40}},       {ClashKind::undecided, {190, 90, 60}},
+    {ClashKind::contained, {156, 60, 170}}, {ClashKind::duplicate, {82, 84, 196}},
+    {ClashKind::touch, {236, 146, 40}},     {ClashKind::clearance, {236, 208, 72}}};
 constexpr Colour kNone{206, 210, 214};         ///< of a part without a clash or a storey
 constexpr std::string_view kStorey = "storey"; ///< the property
 

@@ -43,8 +43,9 @@ private:
 ///             at most 12 u longer in the frame than in the world; squares, their sum and its root
 ///             round by 4 u. 2^-240 exceeds what underflow takes from a product.
 inline double certain_gap(double computed, double sizes) {
-    constexpr double kCoordinates = 16 * 0x1p-53, kLength = 32 * 0x1p-53, kUnderflow = 0x1p-240;
-    return computed * (1 - kLength) - kCoordinates * sizes - kUnderflow;
+    constexpr double kCoordinates = 16 * 0x1p-53, kLength = 32 * 0x1p-53,
+                     kProductUnderflow = 0x1p-240;
+    return computed * (1 - kLength) - kCoordinates * sizes - kProductUnderflow;
 }
 
 /// Computes how far apart the models lie along the frame's z axis: the lowest vertex of b less the
