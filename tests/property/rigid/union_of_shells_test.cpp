@@ -173,8 +173,9 @@ void check(Random& random, const Shells& s, int points) {
         ASSERT_EQ(found.side, side) << p.x << ' ' << p.y << ' ' << p.z;
         ASSERT_EQ(found.method, ContainmentMethod::crossings);
         ASSERT_EQ(body.placed.contains(q), side == Side::inside);
-        if (!body.placed.model().on_surface(q))
+        if (!body.placed.model().on_surface(q)) {
             ASSERT_EQ(placed_blocks.contains(q), side == Side::inside);
+        }
         const Nearest nearest_point =
             nearest(model, world, q, NearestOptions{.signed_distance = true});
         const double distance = size * s.cells.distance(p);
@@ -278,8 +279,9 @@ TEST(UnionOfShells, Cavities) {
             const Body body(s.mesh);
             for (int k = 0; k < 60; ++k) {
                 const Vec3 p = random_point(random);
-                if (!body.placed.model().on_surface(p))
+                if (!body.placed.model().on_surface(p)) {
                     ASSERT_EQ(body.placed.contains(p), s.cells.side(p) == Side::inside);
+                }
             }
             const auto volume = solid_volume(body.placed);
             ASSERT_TRUE(volume);

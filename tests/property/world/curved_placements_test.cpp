@@ -19,19 +19,19 @@
 namespace abut::test {
 namespace {
 
-using Solid = std::variant<Cylinder, Cone, Ellipsoid, Sphere, Capsule, Box3, Convex>;
+using AnySolid = std::variant<Cylinder, Cone, Ellipsoid, Sphere, Capsule, Box3, Convex>;
 constexpr int kCurvedKinds = 3, kKinds = 7;
 
-struct PlacedSolid {
-    Solid shape;
+struct PlacedAnySolid {
+    AnySolid shape;
     Pose pose;
 };
 
-BodyId add(World& world, const PlacedSolid& solid) {
+BodyId add(World& world, const PlacedAnySolid& solid) {
     return std::visit([&](const auto& shape) { return world.add(shape, solid.pose); }, solid.shape);
 }
 
-SolidParts parts_in_world(const PlacedSolid& solid) {
+SolidParts parts_in_world(const PlacedAnySolid& solid) {
     SolidParts parts = std::visit([](const auto& shape) { return parts_of(shape); }, solid.shape);
     parts.place(Transform(solid.pose));
     return parts;
@@ -67,14 +67,14 @@ Answers answers_of(World& world, double reach) {
     return answers;
 }
 
-Answers answers_of(const PlacedSolid& a, const PlacedSolid& b, double reach = 1e3) {
+Answers answers_of(const PlacedAnySolid& a, const PlacedAnySolid& b, double reach = 1e3) {
     World world;
     add(world, a), add(world, b);
     return answers_of(world, reach);
 }
 
 /// That all queries say the same about a pair whose signed distance is known.
-void expect_signed_distance(const PlacedSolid& a, const PlacedSolid& b, double expected,
+void expect_signed_distance(const PlacedAnySolid& a, const PlacedAnySolid& b, double expected,
                             double error) {
     for (const bool swapped : {false, true}) {
         const Answers found = swapped ? answers_of(b, a) : answers_of(a, b);
@@ -115,7 +115,7 @@ TEST(CurvedPlacements, OverlapsThatWereFoundFree) {
         {Cylinder{{{0, 0, -13}, {0, 0, 13}}, 0.25}, moved_by({-.078125, .078125, 7.75})},
         std::sqrt(2.0) * 0.078125 - 0.5625, 1e-11);
     // The sum of both ellipses in the plane of x is a point's distance from it: by brute force.
-    const PlacedSolid a{Ellipsoid{{}, {0.25, 0.5, 10}}, {}},
+    const PlacedAnySolid a{Ellipsoid{{}, {0.25, 0.5, 10}}, {}},
         b{Ellipsoid{{}, {0.25, 0.5, 0.5}}, moved_by({0, 0.25, 3.5})};
     Random random(7201);
     const Answers found = answers_of(a, b);
@@ -142,7 +142,7 @@ TEST(CurvedPlacements, DepthsOnOneAxisAndOneCentre) {
             result.translation = apply(Transform(pose), by);
             return result;
         };
-        const auto check = [&](const Solid& a, const Solid& b, double depth) {
+        const auto check = [&](const AnySolid& a, const AnySolid& b, double depth) {
             expect_signed_distance({a, pose}, {b, pose}, -depth, 4 * error);
         };
         check(upright(0.5, 1), upright(0.2, 0.5), 0.7);
@@ -296,7 +296,7 @@ TEST(CurvedPlacements, TrianglesOfAMeshThroughAnEllipsoid) {
     EXPECT_GT(apart, many(2000) / 8);
 }
 
-Solid grid_solid(Random& random, int kind, double scale) {
+AnySolid grid_solid(Random& random, int kind, double scale) {
     const auto some = [&] { return scale * random.integer(1, 8) / 4.0; };
     const double a = some(), b = some(), c = some();
     switch (kind) {
@@ -332,13 +332,13 @@ Pose grid_pose(Random& random) {
 }
 
 /// The signed distance of a point from a solid, by a world of its own.
-double distance_of_point(const Vec3& point, const PlacedSolid& solid) {
+double distance_of_point(const Vec3& point, const PlacedAnySolid& solid) {
     return answers_of({Sphere{point, 0}, {}}, solid).gap.distance;
 }
 
 /// That the gap is the separation along its own normal, and no other direction has a larger one.
-void expect_best(Random& random, const PlacedSolid& a, const PlacedSolid& b, const BodyGap& gap,
-                 double error) {
+void expect_best(Random& random, const PlacedAnySolid& a, const PlacedAnySolid& b,
+                 const BodyGap& gap, double error) {
     const SolidPair pair{parts_in_world(a), parts_in_world(b)};
     ASSERT_NEAR(length(gap.normal), 1, 1e-12);
     EXPECT_NEAR(double(pair.separation(unit(to_long(gap.normal)))), gap.distance, error);
@@ -348,7 +348,7 @@ void expect_best(Random& random, const PlacedSolid& a, const PlacedSolid& b, con
 }
 
 /// By how much the witness points are off: each lies on its body, on the plane that touches it there.
-double error_of_points(const PlacedSolid& a, const PlacedSolid& b, const BodyGap& gap) {
+double error_of_points(const PlacedAnySolid& a, const PlacedAnySolid& b, const BodyGap& gap) {
     const SolidPair pair{parts_in_world(a), parts_in_world(b)};
     const LongVec3 n = to_long(gap.normal), from_a = to_long(gap.point_a) - pair.a.centre,
                    from_b = to_long(gap.point_b) - pair.a.centre;
@@ -364,7 +364,7 @@ TEST(CurvedPlacements, AnyKindsOnAGridAgreeWithBruteForce) {
     int deep = 0, shallow = 0, apart = 0, unproven = 0, rough = 0;
     for (int round = 0; round < many(500); ++round) {
         const double scale = random.chance(0.2) ? std::pow(10, -random.uniform(0, 3)) : 1;
-        PlacedSolid a{grid_solid(random, round % kCurvedKinds, 1), grid_pose(random)},
+        PlacedAnySolid a{grid_solid(random, round % kCurvedKinds, 1), grid_pose(random)},
             b{grid_solid(random, random.integer(0, kKinds - 1), scale), grid_pose(random)};
         b.pose.translation = grid_offset(random);
         if (random.chance(0.3)) { // on a's upper or lower side, a little too deep or too high
@@ -413,20 +413,20 @@ TEST(CurvedPlacements, RestingSolidsTouchForAllQueries) {
     for (int round = 0; round < many(400); ++round) {
         // A floor of each kind with a flat top at z = 0, and a body that stands on it.
         const double half = random.integer(1, 8) / 4.0, radius = random.integer(1, 8) / 4.0;
-        const std::array<Solid, 4> floors{
+        const std::array<AnySolid, 4> floors{
             Cylinder{{{0, 0, -1}, {0, 0, 0}}, 4}, Cone{{0, 0, -2}, {}, 4},
             Box3{{-4, -4, -1}, {4, 4, 0}},
             Convex(std::vector<Vec3>{{-4, -4, 0}, {4, -4, 0}, {0, 4, 0}, {0, 0, -2}})};
-        const std::array<Solid, 5> bodies{upright(radius, half),
-                                          Cone{{0, 0, half}, {0, 0, -half}, radius},
-                                          Ellipsoid{{}, {radius, 0.5, half}}, Sphere{{}, half},
-                                          Ellipsoid{{}, {half, half, half}}};
+        const std::array<AnySolid, 5> bodies{upright(radius, half),
+                                             Cone{{0, 0, half}, {0, 0, -half}, radius},
+                                             Ellipsoid{{}, {radius, 0.5, half}}, Sphere{{}, half},
+                                             Ellipsoid{{}, {half, half, half}}};
         const auto i = static_cast<std::size_t>(random.integer(0, 3)),
                    k = static_cast<std::size_t>(i < 2 ? random.integer(0, 4)
                                                       : random.integer(0, 2));
         const double gaps[] = {0, 0, 1e-9, -1e-9, 0.125, -0.125};
         const double gap = gaps[random.integer(0, 5)];
-        const PlacedSolid a{floors[i], {}},
+        const PlacedAnySolid a{floors[i], {}},
             b{bodies[k],
               moved_by({random.integer(-4, 4) / 8.0, random.integer(-4, 4) / 8.0, half + gap})};
         World world;
@@ -449,7 +449,7 @@ TEST(CurvedPlacements, AnswersDoNotDependOnEarlierQueries) {
     Random random(7208);
     int met = 0, apart = 0;
     for (int round = 0; round < many(150); ++round) {
-        PlacedSolid a{grid_solid(random, round % kCurvedKinds, 1), grid_pose(random)},
+        PlacedAnySolid a{grid_solid(random, round % kCurvedKinds, 1), grid_pose(random)},
             b{grid_solid(random, random.integer(0, kKinds - 1), 1), grid_pose(random)};
         World used;
         add(used, a);
@@ -468,7 +468,7 @@ TEST(CurvedPlacements, AnswersDoNotDependOnEarlierQueries) {
 }
 
 /// The outward normal of an ellipsoid at a point of its surface.
-Vec3 normal_at(const PlacedSolid& solid, const Vec3& point) {
+Vec3 normal_at(const PlacedAnySolid& solid, const Vec3& point) {
     const Transform world(solid.pose);
     const auto& [a, b, c] = std::get<Ellipsoid>(solid.shape).semi_axes;
     const auto& m = world.m;
@@ -486,7 +486,7 @@ TEST(CurvedPlacements, NormalsAreThoseOfTheSurfaces) {
             return Ellipsoid{
                 {}, {random.uniform(0.3, 1), random.uniform(0.3, 1), random.uniform(0.3, 1)}};
         };
-        const PlacedSolid a{ellipsoid(), random.pose(1)}, b{ellipsoid(), random.pose(1)};
+        const PlacedAnySolid a{ellipsoid(), random.pose(1)}, b{ellipsoid(), random.pose(1)};
         const Answers found = answers_of(a, b);
         ASSERT_EQ(found.gap.status, Status::exact);
         EXPECT_LT(length(normal_at(a, found.gap.point_a) - found.gap.normal), 1e-10);

@@ -266,8 +266,8 @@ TEST(TouchDefault, LengthsThatAreRoundingReadAsZero) {
     const ClashReport report = find_clashes(models, {.touch_tolerance = 0});
     ASSERT_EQ(kind_of(report), ClashKind::hard);
     EXPECT_LT(report.clashes[0].distance, 0);
-    const auto json = nlohmann::json::parse(to_json(report, models));
-    EXPECT_EQ(json["clashes"][0]["distance"].dump(), "0");
+    const auto written = nlohmann::json::parse(to_json(report, models));
+    EXPECT_EQ(written["clashes"][0]["distance"].dump(), "0");
 }
 
 } // namespace
