@@ -25,7 +25,7 @@ struct ClashRecipes {
     std::vector<std::function<Draft(PlantBuilder&)>> makers;
 };
 
-/// The recipes of every kind, in the order of kClashKinds.
+/// The recipes of every kind but `undecided`, in the order of kClashKinds.
 const std::vector<ClashRecipes>& clash_recipes();
 
 /// A pipe (along x) that is planted upright through a slab of the plant.

@@ -857,6 +857,7 @@ class ClashKind(IntEnum):
     contained = 2
     duplicate = 3
     clearance = 4
+    undecided = 5
 
 class ClashMatrix:
     """Groups of parts, and for pairs of groups whether and how their parts are examined."""
@@ -2403,27 +2404,6 @@ class ModelPrecision:
     def single_transforms(self) -> bool:
         """whether transforms of parts are, too"""
 
-class NamedSurface:
-    """A part of a ClashReport that bounds no solid."""
-    @property
-    def model(self) -> int:
-        """index of its model"""
-    @property
-    def id(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def type(self) -> str: ...
-
-class Surfaces:
-    """The parts of a ClashReport that bound no solid."""
-    @property
-    def count(self) -> int:
-        """number of them"""
-    @property
-    def first(self) -> list[NamedSurface]:
-        """list of NamedSurface: the first 100 of them"""
-
 class ModelSummary:
     """A model of a ClashReport."""
     @property
@@ -2610,6 +2590,18 @@ class NamedState:
     @property
     def joints(self) -> list[tuple[str, list[float]]]:
         """list of (name, values)"""
+
+class NamedSurface:
+    """A part of a ClashReport that bounds no solid."""
+    @property
+    def model(self) -> int:
+        """index of its model"""
+    @property
+    def id(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def type(self) -> str: ...
 
 class NamedView(IntEnum):
     """Directions from which a whole model is seen."""
@@ -3808,6 +3800,15 @@ class StoredProperty:
     @property
     def values(self) -> int:
         """how many different ones"""
+
+class Surfaces:
+    """The parts of a ClashReport that bound no solid."""
+    @property
+    def count(self) -> int:
+        """number of them"""
+    @property
+    def first(self) -> list[NamedSurface]:
+        """list of NamedSurface: the first 100 of them"""
 
 class TestCounts:
     """A number for each kind of test."""

@@ -20,18 +20,18 @@ OTHER_TYPES = {
     "ElementaryPair": "arrays", "ElementaryQueries": "arrays", "StoreClashReport": "ClashReport", "WalkAnswer": "its members",
     "OffscreenContext": "within Renderer and PictureMaker", "Picture": "array", "ChunkVertex": "arrays of ViewChunk", "ChunkUpload": "dict of ViewFrame", "DifferencePolytope": "within ConvexWarmStart",
     "RobotQuery": "keywords", "Configurations": "arrays",
-    "PropertiesBuilder": "Scene(properties=)",
+    "PropertiesBuilder": "Scene(properties=)", "TouchSource": "text",
 }
 OTHER_FUNCTIONS = {
     "to_string": "members of an enum have a name", "make_mesh": "Mesh", "clash_id_text": "ids are text",
-    "parse_clash_id": "ids are text",
+    "parse_clash_id": "ids are text", "told_distance": "max(rounding, 1e-12) is what counts as 0",
 }
 OTHER_MEMBERS = {
     "Model": {"mesh": None}, "Mesh": {"positions": "vertices", "triangles": "faces"},
     "Error": {"code": None}, "Pose": {}, "Motion": {},
     "Convex": {"face_count": "len(faces)", "face": "faces"}, "Deformable": {"triangles": "faces"},
     "World": {"size": "__len__"}, "ConvexPieces": {}, "Crew": {"send": "within the job", "receive": "within the job"},
-    "PartQuery": {"condition": "inner"}, "Clash": {"rule": None}, "ClashReport": {"frame": "up"}, "ListedClash": {"part": "part_ids", "name": "names", "type": "types", "file": "files"},
+    "PartQuery": {"condition": "inner"}, "ClashQuery": {"condition": "inner"}, "Clash": {"rule": None}, "ClashReport": {"frame": "up"}, "ListedClash": {"part": "part_ids", "name": "names", "type": "types", "file": "files"},
     "OrientedBox": {"world_from_box": "pose"}, "Intersection": {"corners": "arrays of Contacts.segments"},
     "ConvexWarmStart": {"kind": "inner", "pairs": "inner", "deepest": "inner"},
     "Properties": {"first": "of", "entries": "of", "find": "names"}, "PiecesWarmStart": None, "WarmStart": None, "Impacts": {}, "Impact": {},
@@ -168,6 +168,8 @@ def test_options_are_keywords():
         ours = abut
         for word in owner.split("."):
             ours = getattr(ours, word)
+        if name == "ClashOptions":  # what a command line asks of the report afterwards
+            found[name].remove("asked_later")
         if name == "CarryOptions":  # a step is short: Ctrl-C ends it, and no function watches it
             found[name].remove("progress")
         missing = [m for m in found[name] if m.isidentifier() and not re.search(rf"\b{m}(_part)?\b", ours.__doc__ or "")]

@@ -8,6 +8,8 @@ std::string plant_truth_json(const Plant& plant) {
     using nlohmann::ordered_json;
     ordered_json counts = ordered_json::object();
     for (const ClashKind kind : kClashKinds) {
+        if (kind == ClashKind::undecided)
+            continue; // none is planted
         counts[to_string(kind)] = 0;
     }
     ordered_json clashes = ordered_json::array();

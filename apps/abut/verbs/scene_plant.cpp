@@ -21,10 +21,13 @@ std::string summary(const Plant& plant, const std::string& scene_path,
         fmt::format("{}  {} parts, {} meshes, {} triangles\n{}  {} planted\n", shown(scene_path),
                     grouped(plant.scene.parts.size()), grouped(plant.scene.meshes.size()),
                     grouped(plant.triangles), shown(truth_path), grouped(plant.truth.size()));
-    for (const ClashKind kind : kClashKinds)
+    for (const ClashKind kind : kClashKinds) {
+        if (kind == ClashKind::undecided)
+            continue; // none is planted
         text += fmt::format("  {:<10} {:>9}\n", abut::to_string(kind),
                             std::count_if(plant.truth.begin(), plant.truth.end(),
                                           [&](const auto& clash) { return clash.kind == kind; }));
+    }
     return text;
 }
 

@@ -284,7 +284,7 @@ on = false
 
     // A condition that is longer as it is written than may be read is not kept.
     std::string types = "type = Wall";
-    for (int i = 0; i < 30000; ++i)
+    for (int i = 0; i < 20000; ++i)
         types += ",x*";
     clash(store_, {"--only", types});
     EXPECT_EQ(run_abut({"info", store_, "--verify", "--quiet"}).status, 0);

@@ -28,7 +28,8 @@ protected:
                 {"touch", touch},
                 {"contained", contained},
                 {"duplicate", duplicate},
-                {"clearance", clearance}};
+                {"clearance", clearance},
+                {"undecided", 0}};
     }
 };
 
@@ -175,7 +176,7 @@ TEST_F(ClashTest, PairsAreThoseAcrossFilesUnlessSelfIsGiven) {
 TEST_F(ClashTest, ATouchToleranceTurnsShallowContactsIntoTouches) {
     const Outcome outcome = clash({"--touch", "0.2", "--json"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
-    EXPECT_EQ(outcome.json()["counts"], counts(0, 2, 1, 1, 0));
+    EXPECT_EQ(outcome.json()["counts"], counts(0, 3, 1, 1, 0));
 }
 
 TEST_F(ClashTest, FindsExactlyWhatAPlantWasGiven) {

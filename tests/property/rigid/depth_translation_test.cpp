@@ -150,8 +150,10 @@ TEST(DepthTranslation, EveryQueryGivesCoincidentSolidsTheSameDepth) {
     ASSERT_NE(box.triangles, other.triangles);
     double last = 0;
     for (const double at : {0.0, 1.0, 4096.0, 1048576.0}) {
-        const Depths d = depths_of(box, other, translation(at, -at, 2 * at), 0.01);
+        const Depths d = depths_of(box, other, translation(at, -at, 2 * at));
         EXPECT_EQ(d.kind, ClashKind::hard);
+        EXPECT_EQ(depths_of(box, other, translation(at, -at, 2 * at), 0.01).kind,
+                  ClashKind::duplicate);
         EXPECT_NEAR(d.clash, 1, 1e-6);
         EXPECT_EQ(d.penetration.depth, d.clash);
         EXPECT_TRUE(d.penetration.interpenetrate);

@@ -27,7 +27,7 @@ struct PlacedAnySolid {
     Pose pose;
 };
 
-BodyId add(World& world, const PlacedAnySolid& solid) {
+BodyId add_solid(World& world, const PlacedAnySolid& solid) {
     return std::visit([&](const auto& shape) { return world.add(shape, solid.pose); }, solid.shape);
 }
 
@@ -69,7 +69,7 @@ Answers answers_of(World& world, double reach) {
 
 Answers answers_of(const PlacedAnySolid& a, const PlacedAnySolid& b, double reach = 1e3) {
     World world;
-    add(world, a), add(world, b);
+    add_solid(world, a), add_solid(world, b);
     return answers_of(world, reach);
 }
 
@@ -430,7 +430,7 @@ TEST(CurvedPlacements, RestingSolidsTouchForAllQueries) {
             b{bodies[k],
               moved_by({random.integer(-4, 4) / 8.0, random.integer(-4, 4) / 8.0, half + gap})};
         World world;
-        add(world, a), add(world, b);
+        add_solid(world, a), add_solid(world, b);
         const Answers first = answers_of(world, 1), again = answers_of(world, 1);
         EXPECT_TRUE(first == again);
         EXPECT_EQ(first.collide, gap <= 0);
@@ -452,8 +452,8 @@ TEST(CurvedPlacements, AnswersDoNotDependOnEarlierQueries) {
         PlacedAnySolid a{grid_solid(random, round % kCurvedKinds, 1), grid_pose(random)},
             b{grid_solid(random, random.integer(0, kKinds - 1), 1), grid_pose(random)};
         World used;
-        add(used, a);
-        const BodyId moving = add(used, b);
+        add_solid(used, a);
+        const BodyId moving = add_solid(used, b);
         for (int step = 0; step < 4; ++step) {
             b.pose.translation = grid_offset(random);
             used.move(moving, b.pose);

@@ -513,7 +513,7 @@ TEST_F(CInterface, Clashes) {
         options.clearance = bad;
         EXPECT_EQ(abut_find_clashes(&scenes, 1, &options, &report), ABUT_BAD_ARGUMENT);
         options = {};
-        options.touch_tolerance = bad;
+        options.touch_tolerance = 2 * bad; // -1 is ABUT_TOUCH_OF_FILES
         EXPECT_EQ(abut_find_clashes(&scenes, 1, &options, &report), ABUT_BAD_ARGUMENT);
     }
     options = {};

@@ -136,7 +136,8 @@ TEST_F(ClashWriters, KindsHaveTheirNames) {
     for (const ClashKind kind : kClashKinds)
         names.emplace_back(to_string(kind));
     EXPECT_EQ(names,
-              (std::vector<std::string>{"hard", "touch", "contained", "duplicate", "clearance"}));
+              (std::vector<std::string>{"hard", "touch", "contained", "duplicate", "clearance",
+                                        "undecided"}));
 }
 
 TEST_F(ClashWriters, JsonHasTheKeysInOrder) {
@@ -145,7 +146,7 @@ TEST_F(ClashWriters, JsonHasTheKeysInOrder) {
     using Names = std::vector<std::string>;
     EXPECT_EQ(keys(root), (Names{"models", "frame", "warnings", "clearance", "touch", "touch_least",
                                  "touch_source", "touch_file", "candidates", "counts", "neighbours",
-                                 "left_out", "clashes", "seconds", "peak_rss_mib"}));
+                                 "left_out", "surfaces", "clashes", "seconds", "peak_rss_mib"}));
     EXPECT_EQ(keys(root["models"][0]),
               (Names{"file", "parts", "triangles", "unit", "up", "precision", "rounding"}));
     EXPECT_EQ(keys(root["models"][1]), (Names{"file", "parts", "triangles", "unit", "up",
@@ -153,7 +154,7 @@ TEST_F(ClashWriters, JsonHasTheKeysInOrder) {
     EXPECT_EQ(keys(root["models"][1]["notes"][0]), (Names{"kind", "id", "name", "type", "text"}));
     EXPECT_EQ(keys(root["frame"]), (Names{"up", "unit", "of"}));
     EXPECT_EQ(keys(root["counts"]),
-              (Names{"hard", "touch", "contained", "duplicate", "clearance"}));
+              (Names{"hard", "touch", "contained", "duplicate", "clearance", "undecided"}));
     EXPECT_EQ(keys(root["seconds"]), (Names{"import", "build", "broad", "narrow", "total"}));
     EXPECT_EQ(keys(root["clashes"][0]),
               (Names{"id", "kind", "a", "b", "a_name", "b_name", "a_type", "b_type", "a_file",
@@ -180,7 +181,7 @@ TEST_F(ClashWriters, JsonValuesReadBackAsTheyWere) {
     EXPECT_EQ(root["counts"]["duplicate"], 1);
     EXPECT_EQ(root["seconds"]["narrow"], 0.0625);
     EXPECT_EQ(root["peak_rss_mib"], 123.4);
-    ASSERT_EQ(root["clashes"].size(), 5U);
+    ASSERT_EQ(root["clashes"].size(), kClashKinds.size());
     const json& clash = root["clashes"][0];
     EXPECT_EQ(clash["id"], "0000000000000abc");
     EXPECT_EQ(clash["kind"], "hard");
@@ -307,7 +308,7 @@ TEST_F(ClashWriters, CsvHasTheColumnsAndValues) {
     sample.report.clashes[4].distance = kInfinity;
     write_clash_csv(sample.report, sample.models, path("report.csv"));
     const auto rows = parse_csv(read("report.csv"));
-    ASSERT_EQ(rows.size(), 6U);
+    ASSERT_EQ(rows.size(), 1 + kClashKinds.size());
     using Row = std::vector<std::string>;
     EXPECT_EQ(rows[0], (Row{"id",
                             "kind",
@@ -405,7 +406,7 @@ TEST_F(ClashWriters, CsvQuotesAndDisarmsNames) {
         sample.models[0].parts[1].name = name;
         write_clash_csv(sample.report, sample.models, path("report.csv"));
         const auto rows = parse_csv(read("report.csv"));
-        ASSERT_EQ(rows.size(), 6U) << name;
+        ASSERT_EQ(rows.size(), 1 + kClashKinds.size()) << name;
         EXPECT_EQ(rows[1][4], cell);
         EXPECT_EQ(rows[1].size(), 26U);
     }
@@ -427,11 +428,11 @@ TEST_F(ClashWriters, HtmlHoldsTheClashesAndNothingFromOutside) {
     const json data = json::parse(page.substr(begin, end - begin));
     EXPECT_EQ(data["part_name"], (json{valid_utf8(hostile), "Pipe 3"}));
     EXPECT_EQ(data["models"][0]["file"], "@SCRIPT@</script>");
-    EXPECT_EQ(data["kind"], (json{0, 1, 2, 3, 4}));
-    EXPECT_EQ(data["a"], (json{0, 0, 0, 0, 0}));
-    EXPECT_EQ(data["b"], (json{1, 1, 1, 1, 1}));
+    EXPECT_EQ(data["kind"], (json{0, 1, 2, 3, 4, 5}));
+    EXPECT_EQ(data["a"], (json{0, 0, 0, 0, 0, 0}));
+    EXPECT_EQ(data["b"], (json{1, 1, 1, 1, 1, 1}));
     EXPECT_EQ(data["rules"], (json{"a rule", ""}));
-    EXPECT_EQ(data["rule"], (json{0, 1, 1, 1, 1}));
+    EXPECT_EQ(data["rule"], (json{0, 1, 1, 1, 1, 1}));
     EXPECT_EQ(data["distance"][0].get<double>(), -0.1 - 0.2);
     EXPECT_EQ(data["counts"]["hard"], 1);
 

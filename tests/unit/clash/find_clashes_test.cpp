@@ -255,6 +255,8 @@ TEST(FindClashes, RulesHaveTheirOwnTolerances) {
     EXPECT_EQ(find_clashes(models, options).clashes[0].kind, ClashKind::touch);
     options.rules[0].clearance = 0;
     options.clearance = 1;
+    EXPECT_EQ(find_clashes(models, options).clashes.size(), 2U); // one of them a gap within 0.2
+    options.rules[0].touch_tolerance = 0;
     EXPECT_EQ(find_clashes(models, options).clashes.size(), 1U);
 }
 
