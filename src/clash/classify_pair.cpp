@@ -2,6 +2,8 @@
 
 #include "clash/blocks_pair.h"
 #include "clash/meeting_kind.h"
+#include "clash/outer_contacts.h"
+#include "clash/outer_nearest.h"
 #include "clash/part_pair.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "geometry/triangle_triangle_penetration.h"
@@ -11,7 +13,6 @@
 #include "rigid/penetration/overlap_volume.h"
 
 #include <algorithm>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -58,6 +59,11 @@ std::optional<Clash> classify_duplicates(PartPair& pair) {
 std::vector<Contact> sorted_contacts(PartPair& pair) {
     std::vector<Contact> contacts;
     pair.for_each_contact([&](const Contact& contact) { contacts.push_back(contact); });
+    if (contacts.empty())
+        return contacts;
+    const OuterContacts outer(pair.a().solid(), pair.b().solid());
+    if (!outer.are_all())
+        std::erase_if(contacts, [&](const Contact& c) { return !outer.holds(c.pair); });
     // Sorted, so that the order visibly depends neither on the SIMD width nor on the blocks.
     std::sort(contacts.begin(), contacts.end(),
               [](const Contact& c, const Contact& d) { return c.pair < d.pair; });
@@ -94,7 +100,7 @@ Clash classify_near_duplicates(PartPair& pair, std::span<const Contact> contacts
     if (!contacts.empty()) {
         clash = clash_at(a, b, contacts.front().pair);
     } else {
-        const Gap gap = pair.nearest(std::numeric_limits<double>::infinity());
+        const Gap gap = nearest_outside(pair);
         clash.point_a = gap.point_a, clash.point_b = gap.point_b;
     }
     clash.kind = proof == Proof::holds ? ClashKind::duplicate : ClashKind::undecided;
@@ -124,8 +130,7 @@ std::optional<Clash> classify_apart(PartPair& pair, double clearance, double tou
     // A gap that exceeds `touch` only by rounding counts as `touch`.
     const double touching =
         touch > 0 ? touch + depth_rounding(pair.a().solid(), pair.b().solid()) : 0;
-    const Gap gap = pair.nearest(contained ? std::numeric_limits<double>::infinity()
-                                           : std::max(clearance, touching));
+    const Gap gap = contained ? nearest_outside(pair) : pair.nearest(std::max(clearance, touching));
     const bool touches = gap.distance <= touching;
     if (!contained && !touches && !(gap.distance < clearance))
         return std::nullopt;

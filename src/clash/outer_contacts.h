@@ -11,7 +11,7 @@ namespace abut {
 /// overlap (SolidBoundary).
 class OuterContacts {
 public:
-    /// In          a, b: models, not in blocks. They outlive this.
+    /// In          a, b: they outlive this. Solids in blocks know the triangles in contact.
     OuterContacts(const WorldSolid& a, const WorldSolid& b) : a_(a), b_(b) {}
 
     /// Whether every contact is one.

@@ -3,13 +3,10 @@
 #include <abut/rigid.h>
 
 #include "clash/block_list.h"
-#include "clash/outer_contacts.h"
 #include "rigid/pair/contacts.h"
 #include "rigid/pair/placed_pair.h"
 
-#include <cmath>
 #include <functional>
-#include <vector>
 
 namespace abut {
 
@@ -27,12 +24,11 @@ public:
 
     /// Calls take(contact) for each contact, in any order, with triangle indices of the whole
     /// meshes. Afterwards the solids of a part in blocks know the triangles in contact. Contacts with
-    /// faces inside their own solid are left out, but for parts in blocks (OuterContacts).
+    /// faces inside their own solid are among them (OuterContacts).
     virtual void for_each_contact(const std::function<void(const Contact&)>& take) = 0;
 
     /// Returns the nearest points of the two surfaces. The distance is infinite if the search finds
-    /// none nearer than `bound`. With an infinite bound, faces inside their own solid do not count
-    /// (WorldSolid::boundary), but those of a part in blocks do: one part may lie in the other.
+    /// none nearer than `bound`. Faces inside their own solid count (nearest_outside).
     [[nodiscard]] virtual Gap nearest(double bound) = 0;
 
 private:
@@ -47,31 +43,11 @@ public:
 
     void for_each_contact(const std::function<void(const Contact&)>& take) override {
         Counters counters;
-        const std::vector<Contact> contacts = find_contacts(placed_, ContactMode::all, counters);
-        if (contacts.empty())
-            return;
-        const OuterContacts outer(a().solid(), b().solid());
-        const bool all = outer.are_all();
-        for (const Contact& contact : contacts)
-            if (all || outer.holds(contact.pair))
-                take(contact);
+        for (const Contact& contact : find_contacts(placed_, ContactMode::all, counters))
+            take(contact);
     }
     [[nodiscard]] Gap nearest(double bound) override {
-        // Nothing outside of a solid is nearest to a face inside, so solids are not examined for it.
-        const bool may_contain = std::isinf(bound);
-        const SolidBoundary* const of_a = may_contain ? a().solid().boundary() : nullptr;
-        const SolidBoundary* const of_b = may_contain ? b().solid().boundary() : nullptr;
-        if (of_a == nullptr && of_b == nullptr)
-            return nearest_gap(placed_, bound * bound).gap;
-        const PlacedPair outsides(
-            of_a != nullptr ? of_a->model : *a().part().model, a().part().world_from_mesh,
-            of_b != nullptr ? of_b->model : *b().part().model, b().part().world_from_mesh);
-        Gap gap = nearest_gap(outsides, bound * bound).gap;
-        if (of_a != nullptr)
-            gap.triangle_a = of_a->source[gap.triangle_a];
-        if (of_b != nullptr)
-            gap.triangle_b = of_b->source[gap.triangle_b];
-        return gap;
+        return nearest_gap(placed_, bound * bound).gap;
     }
 
 private:
