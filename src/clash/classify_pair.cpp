@@ -11,6 +11,7 @@
 #include "rigid/penetration/contact_evidence.h"
 #include "rigid/penetration/local_penetration.h"
 #include "rigid/penetration/overlap_volume.h"
+#include "rigid/tolerance/overlap_within.h"
 
 #include <algorithm>
 #include <span>
@@ -129,7 +130,7 @@ std::optional<Clash> classify_apart(PartPair& pair, double clearance, double tou
         return std::nullopt;
     // A gap that exceeds `touch` only by rounding counts as `touch`.
     const double touching =
-        touch > 0 ? touch + depth_rounding(pair.a().solid(), pair.b().solid()) : 0;
+        touch > 0 ? touch + rounding_of_lengths(pair.a().solid(), pair.b().solid()) : 0;
     const Gap gap = contained ? nearest_outside(pair) : pair.nearest(std::max(clearance, touching));
     const bool touches = gap.distance <= touching;
     if (!contained && !touches && !(gap.distance < clearance))
@@ -139,7 +140,7 @@ std::optional<Clash> classify_apart(PartPair& pair, double clearance, double tou
                  : touches ? ClashKind::touch
                            : ClashKind::clearance;
     clash.distance = contained ? -gap.distance : gap.distance;
-    if (touches && gap.distance <= depth_rounding(pair.a().solid(), pair.b().solid()))
+    if (touches && gap.distance <= rounding_of_lengths(pair.a().solid(), pair.b().solid()))
         clash.distance = 0; // rounding may have made the gap
     clash.point_a = gap.point_a, clash.point_b = gap.point_b;
     const Vec3 away = normalized_or_zero(gap.point_b - gap.point_a);
@@ -170,8 +171,13 @@ std::optional<Clash> classify_pair(const ClashPart& a, const ClashPart& b, doubl
         BlocksPair pair(a, b);
         return classify(pair, clearance, touch);
     }
+    // More than what rounding adds to `touch`.
+    const double touching = touch > 0
+                                ? touch + 0x1p-40 * (max_abs(a.box.lower) + max_abs(a.box.upper) +
+                                                     max_abs(b.box.lower) + max_abs(b.box.upper))
+                                : 0;
     if (far_apart(a.model->data(), a.world_from_mesh, b.model->data(), b.world_from_mesh,
-                  std::max(clearance, touch * (1 + 0x1p-20))))
+                  std::max(clearance, touching)))
         return std::nullopt;
     WholePair pair(a, b);
     return classify(pair, clearance, touch);

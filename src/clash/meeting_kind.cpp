@@ -1,5 +1,6 @@
 #include "clash/meeting_kind.h"
 
+#include "clash/blocks_pair.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "rigid/tolerance/overlap_within.h"
 #include "rigid/tolerance/sheets_cross.h"
@@ -32,8 +33,7 @@ std::vector<Vec3> likely_directions(const WorldSolid& a, const WorldSolid& b,
 /// Decides whether two parts, one of them a solid, go at most `touch` into each other.
 Proof overlaps_at_most(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts,
                        const LocalPenetration& depth, double touch) {
-    const double rounding = depth_rounding(a, b);
-    if (depth.depth > touch + rounding)
+    if (depth.depth > touch + rounding_of_lengths(a, b))
         return Proof::fails;
     if (extents_overlap_little(a, b, likely_directions(a, b, contacts), touch))
         return Proof::holds;
@@ -42,6 +42,26 @@ Proof overlaps_at_most(const WorldSolid& a, const WorldSolid& b, std::span<const
         if (const Proof thin = nowhere_thicker(a, b, {touch}); thin != Proof::holds)
             proof = thin;
     return proof;
+}
+
+/// Decides whether two surfaces that bound no solids cross only with their borders.
+Proof cross_at_most(PartPair& pair, double touch) {
+    const WorldSolid &a = pair.a().solid(), &b = pair.b().solid();
+    const Vec3 shift = sheet_shift(a, b);
+    const ClashPart &of_a = pair.a().part(), &of_b = pair.b().part();
+    Transform world = of_b.world_from_mesh;
+    world.m[9] += shift.x, world.m[10] += shift.y, world.m[11] += shift.z;
+    const Box3 box = grown(of_b.box, length(shift));
+    const ClashPart moved{of_b.model, of_b.blocks, world, box};
+    const auto decide = [&](PartPair&& shifted) {
+        std::vector<Contact> contacts;
+        shifted.for_each_contact([&](const Contact& contact) { contacts.push_back(contact); });
+        return contacts.empty() ? Proof::holds
+                                : sheets_cross_at_most(shifted.a().solid(), shifted.b().solid(),
+                                                       contacts, touch);
+    };
+    return of_a.blocks != nullptr || of_b.blocks != nullptr ? decide(BlocksPair(of_a, moved))
+                                                            : decide(WholePair(of_a, moved));
 }
 
 LocalPenetration depth_of(const WorldSolid& a, const WorldSolid& b,
@@ -74,7 +94,7 @@ MeetingKind meeting_kind(PartPair& pair, std::span<const Contact> contacts, cons
         return result;
     const Proof within = a.bounds_solid() || b.bounds_solid()
                              ? overlaps_at_most(a, b, contacts, result.penetration, touch)
-                             : sheets_cross_at_most(a, b, contacts, touch);
+                             : cross_at_most(pair, touch);
     if (within != Proof::fails)
         result.kind = within == Proof::holds ? ClashKind::touch : ClashKind::undecided;
     return result;
@@ -83,7 +103,7 @@ MeetingKind meeting_kind(PartPair& pair, std::span<const Contact> contacts, cons
 Proof are_duplicates(PartPair& pair, double touch) {
     const Box3 &of_a = pair.a().part().box, &of_b = pair.b().part().box;
     const WorldSolid &a = pair.a().solid(), &b = pair.b().solid();
-    const double allowed = touch + depth_rounding(a, b);
+    const double allowed = touch + rounding_of_lengths(a, b);
     if (max_abs(of_a.lower - of_b.lower) > allowed || max_abs(of_a.upper - of_b.upper) > allowed)
         return Proof::fails;
     return everywhere_near(a, b, {touch});

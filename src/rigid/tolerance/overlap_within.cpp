@@ -23,7 +23,7 @@ Vec3 origin_of(const WorldSolid& surface) {
 /// Both surfaces in a frame with a common origin near them, and the rounding there.
 struct SeenPair {
     SeenPair(const WorldSolid& a, const WorldSolid& b)
-        : rounding(depth_rounding(a, b)), seen_a(a.seen_from(origin_of(a))),
+        : rounding(rounding_of_lengths(a, b)), seen_a(a.seen_from(origin_of(a))),
           seen_b(b.seen_from(origin_of(a))) {}
 
     double rounding;
@@ -107,6 +107,11 @@ Proof both_hold(const First& first, const Second& second) {
 
 } // namespace
 
+double rounding_of_lengths(const WorldSolid& a, const WorldSolid& b) {
+    const double far = max_abs(a.middle()) + a.reach() + max_abs(b.middle()) + b.reach();
+    return depth_rounding(a, b) + 0x1p-50 * far;
+}
+
 Proof nowhere_deeper(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options) {
     const SeenPair seen(a, b);
     const ReachSearch::Options search{
@@ -143,7 +148,7 @@ Proof everywhere_near(const WorldSolid& a, const WorldSolid& b, const ToleranceS
 
 bool extents_overlap_little(const WorldSolid& a, const WorldSolid& b,
                             std::span<const Vec3> directions, double tolerance) {
-    const double allowed = tolerance + depth_rounding(a, b);
+    const double allowed = tolerance + rounding_of_lengths(a, b);
     const std::vector<Vec3> of_a = vertices_of(a), of_b = vertices_of(b);
     if (of_a.empty() || of_b.empty())
         return false;

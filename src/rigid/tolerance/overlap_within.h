@@ -15,6 +15,10 @@ struct ToleranceSearch {
     std::uint32_t budget = 100'000; ///< pieces of faces that may be examined, for each question
 };
 
+/// Bounds the rounding of a length between two surfaces, with that of their world positions: a product
+/// with a matrix is off by a few roundings of the largest coordinate.
+double rounding_of_lengths(const WorldSolid& a, const WorldSolid& b);
+
 /// Decides whether no surface point of a solid lies deeper than t in the other one. One of the two
 /// may be no solid: then only its points count.
 Proof nowhere_deeper(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options);

@@ -27,15 +27,12 @@ using Edge = std::pair<std::uint32_t, std::uint32_t>; ///< two vertices, the low
 /// A surface whose vertices at equal positions are merged.
 class Sheet {
 public:
-    Sheet(const WorldSolid& surface, const Vec3& shift) {
+    explicit Sheet(const WorldSolid& surface) {
         std::vector<std::pair<std::uint32_t, Triangle>> numbered;
         surface.for_each_block(surface.world_box(), [&](const WorldSolid::Block& block) {
             const auto count = block.model.data().mesh().triangles.size();
             for (std::uint32_t i = 0; i < count; ++i) {
-                Triangle t = block.model.world_triangle(i);
-                for (Vec3& corner : t)
-                    corner = corner + shift;
-                numbered.emplace_back(block.number(i), t);
+                numbered.emplace_back(block.number(i), block.model.world_triangle(i));
             }
             return true;
         });
@@ -128,10 +125,11 @@ private:
 class SheetPair {
 public:
     SheetPair(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts,
-              const Vec3& shift, double tolerance)
-        : solids_{&a, &b}, sheets_{Sheet(a, {}), Sheet(b, shift)},
+              double tolerance)
+        : solids_{&a, &b}, sheets_{Sheet(a), Sheet(b)},
           contacts_(contacts), options_{.limit = tolerance,
-                                        .rounding = depth_rounding(a, b) + length(shift),
+                                        .rounding =
+                                            depth_rounding(a, b) + length(sheet_shift(a, b)),
                                         .both_sides = true,
                                         .budget = kBudget},
           curves_(contacts.size()) {
@@ -278,10 +276,14 @@ private:
 
 Proof sheets_cross_at_most(const WorldSolid& a, const WorldSolid& b,
                            std::span<const Contact> contacts, double tolerance) {
+    return SheetPair(a, b, contacts, tolerance).run();
+}
+
+Vec3 sheet_shift(const WorldSolid& a, const WorldSolid& b) {
     // A direction in general position to the axes and to other such directions.
     constexpr Vec3 kDirection{0.30115, 0.54772, 0.78056};
-    const Vec3 shift = 0x1p-40 * std::max(a.world_size(), b.world_size()) * kDirection;
-    return SheetPair(a, b, contacts, shift, tolerance).run();
+    const double far = std::max(max_abs(a.middle()), max_abs(b.middle()));
+    return std::max(0x1p-40 * std::max(a.world_size(), b.world_size()), 0x1p-46 * far) * kDirection;
 }
 
 } // namespace abut
