@@ -14,6 +14,7 @@
 #include "rigid/tolerance/overlap_within.h"
 
 #include <algorithm>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -57,14 +58,16 @@ std::optional<Clash> classify_duplicates(PartPair& pair) {
     return clash;
 }
 
-std::vector<Contact> sorted_contacts(PartPair& pair) {
+/// Returns all contacts. With a touch tolerance, faces inside their own solid have none; without one,
+/// the triangles decide.
+std::vector<Contact> sorted_contacts(PartPair& pair, double touch) {
     std::vector<Contact> contacts;
     pair.for_each_contact([&](const Contact& contact) { contacts.push_back(contact); });
-    if (contacts.empty())
-        return contacts;
-    const OuterContacts outer(pair.a().solid(), pair.b().solid());
-    if (!outer.are_all())
-        std::erase_if(contacts, [&](const Contact& c) { return !outer.holds(c.pair); });
+    if (!contacts.empty() && touch > 0) {
+        const OuterContacts outer(pair.a().solid(), pair.b().solid());
+        if (!outer.are_all())
+            std::erase_if(contacts, [&](const Contact& c) { return !outer.holds(c.pair); });
+    }
     // Sorted, so that the order visibly depends neither on the SIMD width nor on the blocks.
     std::sort(contacts.begin(), contacts.end(),
               [](const Contact& c, const Contact& d) { return c.pair < d.pair; });
@@ -131,7 +134,9 @@ std::optional<Clash> classify_apart(PartPair& pair, double clearance, double tou
     // A gap that exceeds `touch` only by rounding counts as `touch`.
     const double touching =
         touch > 0 ? touch + rounding_of_lengths(pair.a().solid(), pair.b().solid()) : 0;
-    const Gap gap = contained ? nearest_outside(pair) : pair.nearest(std::max(clearance, touching));
+    const double bound =
+        contained ? std::numeric_limits<double>::infinity() : std::max(clearance, touching);
+    const Gap gap = contained && touch > 0 ? nearest_outside(pair) : pair.nearest(bound);
     const bool touches = gap.distance <= touching;
     if (!contained && !touches && !(gap.distance < clearance))
         return std::nullopt;
@@ -154,7 +159,7 @@ std::optional<Clash> classify(PartPair& pair, double clearance, double touch) {
     if (same_triangles(pair.a(), pair.b()))
         if (std::optional<Clash> clash = classify_duplicates(pair))
             return clash;
-    const std::vector<Contact> contacts = sorted_contacts(pair);
+    const std::vector<Contact> contacts = sorted_contacts(pair, touch);
     if (touch > 0)
         if (const Proof proof = are_duplicates(pair, touch); proof != Proof::fails)
             return classify_near_duplicates(pair, contacts, proof);

@@ -1,10 +1,12 @@
 // Clashes of real buildings against lists made by exact brute force.
 
 #include <abut/clash.h>
+#include <abut/mesh.h>
 
 #include "tests/support/body.h"
 #include "tests/support/paths.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -66,8 +68,8 @@ protected:
 };
 
 TEST_P(Truth, EveryPairAgrees) {
-    const ClashReport report =
-        find_clashes(models_, {.clearance = truth_["clearance"].get<double>()});
+    const ClashReport report = find_clashes(
+        models_, {.clearance = truth_["clearance"].get<double>(), .touch_tolerance = 0});
     EXPECT_EQ(report.candidates, truth_["box_pairs"].get<std::uint64_t>());
 
     std::set<IdPair> meeting, contained;
@@ -94,7 +96,13 @@ TEST_P(Truth, EveryPairAgrees) {
     for (const json& p : truth_["inside_not_closed"])
         if (std::abs(std::abs(p[2].get<double>()) - 1) < 1e-6)
             contained_truth.insert(std::minmax(p[0].get<std::string>(), p[1].get<std::string>()));
-    EXPECT_EQ(contained, contained_truth);
+    // The truth takes the triangles as they are. A part with duplicates and sheets beside a closed
+    // surface is not closed for it, and bounds a solid all the same (docs/solids.md).
+    EXPECT_TRUE(std::ranges::includes(contained, contained_truth));
+    for (const IdPair& pair : contained)
+        EXPECT_TRUE(contained_truth.contains(pair) || !inspect(mesh_of(pair.first)).closed ||
+                    !inspect(mesh_of(pair.second)).closed)
+            << pair.first << ' ' << pair.second;
 
     std::map<IdPair, double> near_truth;
     for (const json& p : truth_["near"])

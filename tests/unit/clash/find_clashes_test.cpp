@@ -96,12 +96,16 @@ TEST(FindClashes, ContainedInTheUnionOfShells) {
     const Mesh shells =
         joined(box_mesh({0, 0, 0}, {1, 0.8, 0.6}), box_mesh({0.5, 0, 0}, {1.5, 0.8, 0.6}));
     for (const double x : {0.2, 0.45, 0.5, 0.7, 0.95}) {
-        const auto clash = clash_of(shells, box_mesh({x, 0.35, 0.25}, {x + 0.1, 0.43, 0.31}));
+        const Mesh inner = box_mesh({x, 0.35, 0.25}, {x + 0.1, 0.43, 0.31});
+        const auto clash = clash_of(shells, inner, {.touch_tolerance = 1e-9});
         ASSERT_TRUE(clash) << x;
         EXPECT_EQ(clash->kind, ClashKind::contained) << x;
         EXPECT_NEAR(clash->distance, x < 0.25 ? -x : -0.25, 1e-12) << x;
         EXPECT_NEAR(clash->volume, 0.1 * 0.08 * 0.06, 1e-9) << x;
     }
+    // Without a tolerance, the triangles decide: these meet a face inside.
+    EXPECT_EQ(clash_of(shells, box_mesh({0.45, 0.35, 0.25}, {0.55, 0.43, 0.31}))->kind,
+              ClashKind::hard);
     // Across the boundary, it is hard, with the volume of the union.
     const auto hard = clash_of(shells, box_mesh({0.6, 0.2, 0.5}, {0.9, 0.4, 0.7}));
     ASSERT_TRUE(hard);
