@@ -63,7 +63,8 @@ void add_turned_outward(const Triangle& face, int weight, const WorldSolid& soli
 /// Decides whether no ball that touches the surface of `touched` from inside lies in both.
 Proof no_ball_touches(const WorldSolid& touched, const WorldSolid& other,
                       const ReachSearch::Options& options) {
-    const double radius = options.limit * (1 + kCentreError);
+    // By more than the rounding above the limit, so that a ball that touches nothing else is found.
+    const double radius = options.limit * (1 + kCentreError) + 4 * options.rounding;
     ReachSearch search(other, options);
     std::vector<Triangle> faces;
     const Box3 box = grown(other.world_box(), options.rounding);
