@@ -24,12 +24,8 @@ protected:
     }
 
     static json counts(int hard, int touch, int contained, int duplicate, int clearance) {
-        return {{"hard", hard},
-                {"touch", touch},
-                {"contained", contained},
-                {"duplicate", duplicate},
-                {"clearance", clearance},
-                {"undecided", 0}};
+        return {{"hard", hard},           {"touch", touch},         {"contained", contained},
+                {"duplicate", duplicate}, {"clearance", clearance}, {"undecided", 0}};
     }
 };
 

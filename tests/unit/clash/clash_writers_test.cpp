@@ -135,9 +135,8 @@ TEST_F(ClashWriters, KindsHaveTheirNames) {
     names.reserve(kClashKinds.size());
     for (const ClashKind kind : kClashKinds)
         names.emplace_back(to_string(kind));
-    EXPECT_EQ(names,
-              (std::vector<std::string>{"hard", "touch", "contained", "duplicate", "clearance",
-                                        "undecided"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"hard", "touch", "contained", "duplicate",
+                                               "clearance", "undecided"}));
 }
 
 TEST_F(ClashWriters, JsonHasTheKeysInOrder) {
