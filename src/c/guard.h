@@ -59,6 +59,7 @@ T& needed(T* pointer, const char* name) {
 template <class T>
 std::span<T> needed(T* pointer, std::size_t count, const char* name, std::size_t width = 1) {
     constexpr std::size_t kMostBytes = std::numeric_limits<std::ptrdiff_t>::max();
+    // NOLINTNEXTLINE(bugprone-sizeof-expression): an array of pointers has elements of that size
     if (count > kMostBytes / (width * sizeof(T)))
         throw Error(ErrorCode::bad_argument, std::string(name) + " are more than memory can hold");
     if (count != 0)

@@ -17,10 +17,11 @@ std::vector<Triangle> outer_parts(const WorldSolid& solid, std::uint32_t triangl
         return {solid.world_triangle(triangle)};
     std::vector<Triangle> parts;
     solid.for_each_surface_block(solid.world_box(), [&](const WorldSolid::Block& block) {
-        const auto [begin, end] = std::ranges::equal_range(boundary->source, triangle);
+        const auto& source = boundary->source;
+        const auto [begin, end] = std::equal_range(source.begin(), source.end(), triangle);
         for (auto at = begin; at != end; ++at)
-            parts.push_back(block.model.world_triangle(
-                static_cast<std::uint32_t>(at - boundary->source.begin())));
+            parts.push_back(
+                block.model.world_triangle(static_cast<std::uint32_t>(at - source.begin())));
         return true;
     });
     return parts;
