@@ -35,11 +35,13 @@ Proof overlaps_at_most(const WorldSolid& a, const WorldSolid& b, std::span<const
                        const LocalPenetration& depth, double touch) {
     if (depth.depth > touch + rounding_of_lengths(a, b))
         return Proof::fails;
-    if (extents_overlap_little(a, b, likely_directions(a, b, contacts), touch))
+    const std::vector<Vec3> directions = likely_directions(a, b, contacts);
+    if (extents_overlap_little(a, b, directions, touch))
         return Proof::holds;
-    Proof proof = depth.at_most <= touch ? Proof::holds : nowhere_deeper(a, b, {touch});
+    const ToleranceSearch search{.tolerance = touch, .directions = directions};
+    Proof proof = depth.at_most <= touch ? Proof::holds : nowhere_deeper(a, b, search);
     if (proof != Proof::fails && a.bounds_solid() && b.bounds_solid())
-        if (const Proof thin = nowhere_thicker(a, b, {touch}); thin != Proof::holds)
+        if (const Proof thin = nowhere_thicker(a, b, search); thin != Proof::holds)
             proof = thin;
     return proof;
 }

@@ -27,8 +27,9 @@ Vec3 inward_normal(const Triangle& t) {
 
 class CentrePolygons {
 public:
-    CentrePolygons(double radius, const std::function<bool(const FacePolygon&)>& take)
-        : radius_(radius), take_(take) {}
+    CentrePolygons(double radius, const std::function<bool(const FacePolygon&)>& take,
+                   const std::function<bool(const Vec3&, double)>& is_settled)
+        : radius_(radius), take_(take), is_settled_(is_settled) {}
 
     void run(const std::vector<Triangle>& faces) {
         std::vector<Side> sides;
@@ -75,6 +76,10 @@ private:
         reflex_ends_.push_back({s.from, s.to});
         reflex_ends_.push_back({s.to, s.from});
         const double angle = std::atan2(length(cross(s.inward, t.inward)), dot(s.inward, t.inward));
+        // With R = (1 + e) radius and an angle of at most e = kCentreError, a ball around q + R u holds
+        // the ball of radius (1 - e) around a centre on the polygon of one of the faces.
+        if (angle <= kCentreError)
+            return;
         const auto count = static_cast<int>(std::ceil(angle / (2 * kHalfAngle)));
         const Vec3 across = normalized_or_zero(t.inward - dot(t.inward, s.inward) * s.inward);
         for (int i = 0; i < count && going_; ++i) {
@@ -160,6 +165,8 @@ private:
                   vertex + out * directions[2]});
             return;
         }
+        if (is_settled_(vertex + radius_ * cosine * middle, reach_of_cap(cosine)))
+            return;
         std::array<Vec3, 3> mid;
         for (std::size_t i = 0; i < 3; ++i)
             mid[i] = normalized_or_zero(directions[i] + directions[(i + 1) % 3]);
@@ -169,8 +176,17 @@ private:
         add_directions(vertex, mid, outward);
     }
 
+    /// The radius of the ball around the middle of a cap's base that holds the pieces of the cap: all
+    /// centres in directions whose angle to its axis has at least this cosine.
+    [[nodiscard]] double reach_of_cap(double cosine) const {
+        const double out = 1 + kCentreError; // the farthest corner of a piece, in radii
+        const double base = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+        return radius_ * std::hypot(out * base, (out - 1) * cosine);
+    }
+
     const double radius_;
     const std::function<bool(const FacePolygon&)>& take_;
+    const std::function<bool(const Vec3&, double)>& is_settled_;
     bool going_ = true;
     std::vector<ReflexEnd> reflex_ends_;
     std::vector<SideEnd> ends_;
@@ -180,8 +196,9 @@ private:
 } // namespace
 
 void for_each_centre_polygon(const std::vector<Triangle>& faces, double radius,
-                             const std::function<bool(const FacePolygon&)>& take) {
-    CentrePolygons(radius, take).run(faces);
+                             const std::function<bool(const FacePolygon&)>& take,
+                             const std::function<bool(const Vec3&, double)>& is_settled) {
+    CentrePolygons(radius, take, is_settled).run(faces);
 }
 
 } // namespace abut

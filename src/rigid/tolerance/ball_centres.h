@@ -19,12 +19,16 @@ inline constexpr double kCentreError = 0x1p-8;
 ///
 /// A ball of radius R that touches a face or an edge or vertex at q has its centre at q + R u. If it
 /// lies in a body, so does the ball of every smaller radius s around q + s u. For R at least
-/// (1 + kCentreError) radius, some q + s u with s >= radius lies on a polygon.
+/// (1 + kCentreError) radius, some q + s u with s >= radius lies on a polygon, or a ball of radius
+/// (1 - kCentreError) radius around a point of a polygon lies in that ball.
 ///
 /// In          faces: with outward normals, all around each edge and vertex that matters; `radius` is
-///             positive.
-/// Cost        O(n log n); a strip for each 7 degrees of an edge, a few dozen pieces for a vertex.
+///             positive. is_settled(middle, radius): whether no polygon in a ball is of interest;
+///             pieces of spheres there are left out.
+/// Cost        O(n log n); a strip for each 7 degrees of an edge. A sphere is divided where it is not
+///             settled, into pieces of 4 to 7 degrees.
 void for_each_centre_polygon(const std::vector<Triangle>& faces, double radius,
-                             const std::function<bool(const FacePolygon&)>& take);
+                             const std::function<bool(const FacePolygon&)>& take,
+                             const std::function<bool(const Vec3&, double)>& is_settled);
 
 } // namespace abut

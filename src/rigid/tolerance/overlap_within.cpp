@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace abut {
@@ -32,6 +33,43 @@ struct SeenPair {
 
 FacePolygon polygon_of(const Triangle& t) {
     return {t[0], t[1], t[2]};
+}
+
+/// All vertices; none if there are more than are worth a look.
+std::vector<Vec3> vertices_of(const WorldSolid& surface) {
+    constexpr std::size_t kMostVertices = 16384;
+    std::vector<Vec3> vertices;
+    surface.for_each_block(surface.world_box(), [&](const WorldSolid::Block& block) {
+        const std::size_t count = block.model.data().mesh().positions.size();
+        if (vertices.size() + count > kMostVertices) {
+            vertices.clear();
+            return false;
+        }
+        for (std::uint32_t i = 0; i < count; ++i)
+            vertices.push_back(block.model.world_vertex(i));
+        return true;
+    });
+    return vertices;
+}
+
+/// Planes over which no point of a solid is farther than `limit` from its surface: they touch it, and
+/// are then moved inward by the limit.
+std::vector<CuttingPlane> bounds_of_depth(const WorldSolid& solid, std::span<const Vec3> directions,
+                                          double limit) {
+    std::vector<CuttingPlane> bounds;
+    const std::vector<Vec3> vertices = vertices_of(solid);
+    if (vertices.empty())
+        return bounds;
+    for (const Vec3& direction : directions) {
+        const Vec3 along = normalized_or_zero(direction);
+        const auto height = [&](const Vec3& p) { return dot(p - vertices[0], along); };
+        const auto [lowest, highest] = std::ranges::minmax(vertices, {}, height);
+        if (along == Vec3{})
+            continue;
+        bounds.push_back({highest - limit * along, along});
+        bounds.push_back({lowest + limit * along, -along});
+    }
+    return bounds;
 }
 
 Proof all_points_pass(const WorldSolid& surface, const WorldSolid& solid,
@@ -73,27 +111,13 @@ Proof no_ball_touches(const WorldSolid& touched, const WorldSolid& other,
                                add_turned_outward(face, touched.weight(number), touched, faces);
                                return true;
                            });
-    for_each_centre_polygon(faces, radius, [&](const FacePolygon& polygon) {
-        return search.add(polygon) == Proof::holds;
-    });
+    for_each_centre_polygon(
+        faces, radius,
+        [&](const FacePolygon& polygon) { return search.add(polygon) == Proof::holds; },
+        [&](const Vec3& middle, double reach) {
+            return search.rules_out_by_either(middle, reach);
+        });
     return search.proof();
-}
-
-/// All vertices; none if there are more than are worth a look.
-std::vector<Vec3> vertices_of(const WorldSolid& surface) {
-    constexpr std::size_t kMostVertices = 16384;
-    std::vector<Vec3> vertices;
-    surface.for_each_block(surface.world_box(), [&](const WorldSolid::Block& block) {
-        const std::size_t count = block.model.data().mesh().positions.size();
-        if (vertices.size() + count > kMostVertices) {
-            vertices.clear();
-            return false;
-        }
-        for (std::uint32_t i = 0; i < count; ++i)
-            vertices.push_back(block.model.world_vertex(i));
-        return true;
-    });
-    return vertices;
 }
 
 /// The proof of two statements together.
@@ -115,10 +139,15 @@ double rounding_of_lengths(const WorldSolid& a, const WorldSolid& b) {
 
 Proof nowhere_deeper(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options) {
     const SeenPair seen(a, b);
-    const ReachSearch::Options search{
-        .limit = options.tolerance, .rounding = seen.rounding, .budget = options.budget};
     const auto in = [&](const WorldSolid& surface, const WorldSolid& solid) {
-        return solid.bounds_solid() ? all_points_pass(surface, solid, search) : Proof::holds;
+        if (!solid.bounds_solid())
+            return Proof::holds;
+        return all_points_pass(
+            surface, solid,
+            {.limit = options.tolerance,
+             .rounding = seen.rounding,
+             .bounds = bounds_of_depth(solid, options.directions, options.tolerance),
+             .budget = options.budget});
     };
     return both_hold([&] { return in(*seen.seen_a, *seen.seen_b); },
                      [&] { return in(*seen.seen_b, *seen.seen_a); });
@@ -127,10 +156,15 @@ Proof nowhere_deeper(const WorldSolid& a, const WorldSolid& b, const ToleranceSe
 Proof nowhere_thicker(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options) {
     const SeenPair seen(a, b);
     const auto touching = [&](const WorldSolid& touched, const WorldSolid& other) {
+        const double radius = 0.5 * options.tolerance;
+        std::vector<CuttingPlane> bounds = bounds_of_depth(other, options.directions, radius);
+        for (const CuttingPlane& bound : bounds_of_depth(touched, options.directions, radius))
+            bounds.push_back(bound);
         return no_ball_touches(touched, other,
-                               {.limit = 0.5 * options.tolerance,
+                               {.limit = radius,
                                 .rounding = seen.rounding,
                                 .own = &touched,
+                                .bounds = std::move(bounds),
                                 .budget = options.budget});
     };
     return both_hold([&] { return touching(*seen.seen_a, *seen.seen_b); },

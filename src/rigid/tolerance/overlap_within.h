@@ -3,6 +3,8 @@
 #include "rigid/solid/world_solid.h"
 #include "rigid/tolerance/reach_search.h"
 
+#include <span>
+
 namespace abut {
 
 /// How two surfaces lie to each other, up to a tolerance t.
@@ -13,6 +15,9 @@ namespace abut {
 struct ToleranceSearch {
     double tolerance = 0;           ///< t, positive
     std::uint32_t budget = 100'000; ///< pieces of faces that may be examined, for each question
+    /// Along these, of any length, the surfaces' extents may show soon what needs no search. They do
+    /// not change what is proven.
+    std::span<const Vec3> directions{};
 };
 
 /// Bounds the rounding of a length between two surfaces, with that of their world positions: a product

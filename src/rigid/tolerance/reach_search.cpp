@@ -47,21 +47,61 @@ CellPlanes neighbourhood_of(const Triangle& t, double limit) {
     return planes;
 }
 
+/// A polygon to compare with many triangles.
+class MeetingTest {
+public:
+    MeetingTest(const FacePolygon& polygon, double rounding)
+        : polygon_(polygon), rounding_(rounding) {
+        for (std::size_t i = 2; i < polygon.size(); ++i)
+            normal_ = normal_ + cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+        normal_ = normalized_or_zero(normal_);
+    }
+
+    /// Exact for the polygon's rounded corners.
+    [[nodiscard]] bool meets(const Triangle& t) const {
+        if (is_over_or_under(t, polygon_[0], normal_) ||
+            is_over_or_under(polygon_, t[0], normalized_or_zero(cross(t[1] - t[0], t[2] - t[0]))))
+            return false;
+        for (std::size_t i = 2; i < polygon_.size(); ++i)
+            if (triangle_triangle_intersect({polygon_[0], polygon_[i - 1], polygon_[i]}, t) !=
+                TriangleContact::none)
+                return true;
+        return false;
+    }
+
+private:
+    /// Returns whether all points lie on one side of a plane, by more than the rounding.
+    template <typename Points>
+    [[nodiscard]] bool is_over_or_under(const Points& points, const Vec3& on_plane,
+                                        const Vec3& normal) const {
+        bool over = true, under = true;
+        for (const Vec3& p : points) {
+            const double height = dot(p - on_plane, normal);
+            over = over && height > rounding_;
+            under = under && height < -rounding_;
+        }
+        return over || under;
+    }
+
+    const FacePolygon& polygon_;
+    const double rounding_;
+    Vec3 normal_;
+};
+
 /// Returns a triangle of the surface that shares a point with a polygon, if there is one. Exact for
 /// the polygon's rounded corners.
 std::optional<Triangle> triangle_met_by(const FacePolygon& polygon, const WorldSolid& surface,
                                         const ReachSearch::Options& options) {
     std::optional<Triangle> met;
     const Box3 box = grown(box_of(polygon), options.rounding);
+    const MeetingTest test(polygon, options.rounding);
     surface.for_each_surface_block(box, [&](const WorldSolid::Block& block) {
         block.model.for_each_overlap(box, [&](std::uint32_t slot) {
             if (met)
                 return;
             const Triangle t = block.model.world_slot(slot);
-            for (std::size_t i = 2; i < polygon.size() && !met; ++i)
-                if (triangle_triangle_intersect({polygon[0], polygon[i - 1], polygon[i]}, t) !=
-                    TriangleContact::none)
-                    met = t;
+            if (test.meets(t))
+                met = t;
         });
         return !met;
     });
@@ -84,7 +124,7 @@ Proof ReachSearch::add(const FacePolygon& polygon) {
         return proof_;
     if (!options_.both_sides && !overlap(box_of(polygon), box_))
         return proof_;
-    push(polygon, {});
+    push(within_bounds(polygon), last_);
     while (!waiting_.empty() && proof_ == Proof::holds) {
         Piece piece = waiting_.back();
         waiting_.pop_back();
@@ -93,18 +133,39 @@ Proof ReachSearch::add(const FacePolygon& polygon) {
             proof_ = Proof::open;
         else
             --left_, examine(piece);
+        last_ = piece;
     }
     waiting_.clear();
     return proof_;
 }
 
+/// The part of a polygon that is under all bounds, unless it has too many corners to be cut.
+FacePolygon ReachSearch::within_bounds(FacePolygon polygon) const {
+    for (const CuttingPlane& bound : options_.bounds) {
+        if (polygon.size() < 3 || polygon.size() > kMostCornersToCut)
+            break;
+        polygon = cut(polygon, bound, options_.rounding).inside;
+    }
+    return polygon;
+}
+
 bool ReachSearch::rules_out(const Vec3& middle, double radius) {
+    return rules_out_by(solid_, last_.side, middle, radius);
+}
+
+bool ReachSearch::rules_out_by_either(const Vec3& middle, double radius) {
+    return rules_out(middle, radius) ||
+           rules_out_by(*options_.own, last_.side_of_own, middle, radius);
+}
+
+bool ReachSearch::rules_out_by(const WorldSolid& surface, KnownSide& side, const Vec3& middle,
+                               double radius) {
     const double enough = std::max(radius, options_.limit - radius);
-    const WorldSolid::Nearest nearest = solid_.nearest(middle, {.enough = enough});
+    const WorldSolid::Nearest nearest = surface.nearest(middle, {.enough = enough});
     if (nearest.distance + radius <= options_.limit)
         return true;
     return !options_.both_sides && nearest.distance > radius + options_.rounding &&
-           !solid_.contains_off_surface(middle);
+           !is_inside(surface, middle, side);
 }
 
 bool ReachSearch::is_near(const FacePolygon& polygon, const WorldSolid& surface,

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace abut {
@@ -40,11 +41,14 @@ public:
         const WorldSolid* own = nullptr; ///< the second surface, if any
         /// Also points outside count: decides whether all points are near the surface.
         bool both_sides = false;
+        /// No point over one of these planes is beyond: what polygons have there is left out.
+        std::vector<CuttingPlane> bounds{};
         std::uint32_t budget = 0; ///< pieces that may be examined, in all polygons together
     };
-    ReachSearch(const WorldSolid& solid, const Options& options)
-        : solid_(solid), options_(options),
-          box_(grown(solid.world_box(), options.limit + options.rounding)), left_(options.budget) {}
+    ReachSearch(const WorldSolid& solid, Options options)
+        : solid_(solid), options_(std::move(options)),
+          box_(grown(solid.world_box(), options_.limit + options_.rounding)),
+          left_(options_.budget) {}
 
     /// Examines one more polygon, unless one before was not proven.
     Proof add(const FacePolygon& polygon);
@@ -56,6 +60,8 @@ public:
     /// Examines a ball that encloses faces. Returns whether no point of it is beyond; none if that
     /// needs a look at the faces.
     [[nodiscard]] bool rules_out(const Vec3& middle, double radius);
+    /// As rules_out(), and looks at the second surface, too.
+    [[nodiscard]] bool rules_out_by_either(const Vec3& middle, double radius);
 
 private:
     using Slots = boost::container::static_vector<std::uint32_t, 4>;
@@ -77,6 +83,9 @@ private:
         WorldSolid::Nearest nearest;
     };
 
+    [[nodiscard]] bool rules_out_by(const WorldSolid& surface, KnownSide& side, const Vec3& middle,
+                                    double radius);
+    [[nodiscard]] FacePolygon within_bounds(FacePolygon polygon) const;
     void examine(Piece& piece);
     [[nodiscard]] bool is_near(const FacePolygon& polygon, const WorldSolid& surface,
                                const Slots& slots) const;
@@ -95,6 +104,7 @@ private:
     std::uint32_t left_;
     Proof proof_ = Proof::holds;
     Vec3 counterexample_;
+    Piece last_; ///< the last that was examined: the next polygon is often near it
     std::vector<Piece> waiting_;
 };
 
