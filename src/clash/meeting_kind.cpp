@@ -6,6 +6,7 @@
 #include "rigid/tolerance/sheets_cross.h"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace abut {
@@ -30,24 +31,54 @@ std::vector<Vec3> likely_directions(const WorldSolid& a, const WorldSolid& b,
     return directions;
 }
 
-/// Decides whether two parts, one of them a solid, go at most `touch` into each other.
+/// The depth at a surface point of one part that lies in or beyond the other one.
+LocalPenetration depth_at(const WorldSolid& a, const WorldSolid& b, const Vec3& point) {
+    const double anywhere = std::numeric_limits<double>::infinity();
+    const WorldSolid::Nearest on_a = a.nearest(point, anywhere), on_b = b.nearest(point, anywhere);
+    LocalPenetration p;
+    p.depth = p.at_most = std::max(on_a.distance, on_b.distance);
+    p.point_a = on_a.point, p.point_b = on_b.point;
+    p.direction = normalized_or_zero(p.point_a - p.point_b);
+    p.triangles = {a.triangle_at(on_a.slot), b.triangle_at(on_b.slot)};
+    return p;
+}
+
+/// The diameter of a ball in both parts as a depth, with the points of both surfaces nearest to its
+/// middle.
+LocalPenetration thickness_at(const WorldSolid& a, const WorldSolid& b, const Vec3& middle) {
+    LocalPenetration p = depth_at(a, b, middle);
+    const double to_a = length(p.point_a - middle), to_b = length(p.point_b - middle);
+    p.depth = p.at_most = 2 * std::min(to_a, to_b);
+    p.direction = normalized_or_zero(to_a < to_b ? p.point_a - middle : middle - p.point_b);
+    return p;
+}
+
+/// Decides whether two parts, one of them a solid, go at most `touch` into each other. If not, `depth`
+/// becomes larger than that.
 Proof overlaps_at_most(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts,
-                       const LocalPenetration& depth, double touch) {
+                       double touch, LocalPenetration& depth) {
     if (depth.depth > touch + rounding_of_lengths(a, b))
         return Proof::fails;
     const std::vector<Vec3> directions = likely_directions(a, b, contacts);
     if (extents_overlap_little(a, b, directions, touch))
         return Proof::holds;
     const ToleranceSearch search{.tolerance = touch, .directions = directions};
-    Proof proof = depth.at_most <= touch ? Proof::holds : nowhere_deeper(a, b, search);
-    if (proof != Proof::fails && a.bounds_solid() && b.bounds_solid())
-        if (const Proof thin = nowhere_thicker(a, b, search); thin != Proof::holds)
-            proof = thin;
-    return proof;
+    Vec3 found;
+    const Proof shallow =
+        depth.at_most <= touch ? Proof::holds : nowhere_deeper(a, b, search, &found);
+    if (shallow == Proof::fails)
+        depth = depth_at(a, b, found);
+    if (shallow == Proof::fails || !a.bounds_solid() || !b.bounds_solid())
+        return shallow;
+    const Proof thin = nowhere_thicker(a, b, search, &found);
+    if (thin == Proof::fails)
+        depth = thickness_at(a, b, found);
+    return thin == Proof::holds ? shallow : thin;
 }
 
-/// Decides whether two surfaces that bound no solids cross only with their borders.
-Proof cross_at_most(PartPair& pair, double touch) {
+/// Decides whether two surfaces that bound no solids cross only with their borders. If not, `depth`
+/// becomes at least what one goes beyond the other.
+Proof cross_at_most(PartPair& pair, double touch, LocalPenetration& depth) {
     const WorldSolid &a = pair.a().solid(), &b = pair.b().solid();
     const Vec3 shift = sheet_shift(a, b);
     const ClashPart &of_a = pair.a().part(), &of_b = pair.b().part();
@@ -58,9 +89,15 @@ Proof cross_at_most(PartPair& pair, double touch) {
     const auto decide = [&](PartPair&& shifted) {
         std::vector<Contact> contacts;
         shifted.for_each_contact([&](const Contact& contact) { contacts.push_back(contact); });
-        return contacts.empty() ? Proof::holds
-                                : sheets_cross_at_most(shifted.a().solid(), shifted.b().solid(),
-                                                       contacts, touch);
+        if (contacts.empty())
+            return Proof::holds;
+        Vec3 found;
+        const Proof proof =
+            sheets_cross_at_most(shifted.a().solid(), shifted.b().solid(), contacts, touch, &found);
+        if (const LocalPenetration beyond = depth_at(a, b, found);
+            proof == Proof::fails && depth.depth < beyond.depth)
+            depth = beyond;
+        return proof;
     };
     return of_a.blocks != nullptr || of_b.blocks != nullptr ? decide(BlocksPair(of_a, moved))
                                                             : decide(WholePair(of_a, moved));
@@ -95,8 +132,8 @@ MeetingKind meeting_kind(PartPair& pair, std::span<const Contact> contacts, cons
     if (touch == 0)
         return result;
     const Proof within = a.bounds_solid() || b.bounds_solid()
-                             ? overlaps_at_most(a, b, contacts, result.penetration, touch)
-                             : cross_at_most(pair, touch);
+                             ? overlaps_at_most(a, b, contacts, touch, result.penetration)
+                             : cross_at_most(pair, touch, result.penetration);
     if (within != Proof::fails)
         result.kind = within == Proof::holds ? ClashKind::touch : ClashKind::undecided;
     return result;

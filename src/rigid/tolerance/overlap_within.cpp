@@ -25,10 +25,17 @@ Vec3 origin_of(const WorldSolid& surface) {
 struct SeenPair {
     SeenPair(const WorldSolid& a, const WorldSolid& b)
         : rounding(rounding_of_lengths(a, b)), seen_a(a.seen_from(origin_of(a))),
-          seen_b(b.seen_from(origin_of(a))) {}
+          seen_b(b.seen_from(origin_of(a))), origin(origin_of(a)) {}
 
     double rounding;
     std::unique_ptr<const WorldSolid> seen_a, seen_b;
+    Vec3 origin;
+};
+
+/// A proof; if it fails, a point that shows it.
+struct Answer {
+    Proof proof = Proof::holds;
+    Vec3 found{};
 };
 
 FacePolygon polygon_of(const Triangle& t) {
@@ -72,15 +79,15 @@ std::vector<CuttingPlane> bounds_of_depth(const WorldSolid& solid, std::span<con
     return bounds;
 }
 
-Proof all_points_pass(const WorldSolid& surface, const WorldSolid& solid,
-                      const ReachSearch::Options& options) {
+Answer all_points_pass(const WorldSolid& surface, const WorldSolid& solid,
+                       const ReachSearch::Options& options) {
     ReachSearch search(solid, options);
     Box3 box =
         grown(options.both_sides ? surface.world_box() : solid.world_box(), options.rounding);
     for_each_face_in_reach(surface, box, 0, search, [&](const Triangle& face, std::uint32_t) {
         return search.add(polygon_of(face)) == Proof::holds;
     });
-    return search.proof();
+    return {search.proof(), search.counterexample()};
 }
 
 /// Adds a face with its normal outward. If its weight does not tell which side is outside, points
@@ -99,8 +106,8 @@ void add_turned_outward(const Triangle& face, int weight, const WorldSolid& soli
 }
 
 /// Decides whether no ball that touches the surface of `touched` from inside lies in both.
-Proof no_ball_touches(const WorldSolid& touched, const WorldSolid& other,
-                      const ReachSearch::Options& options) {
+Answer no_ball_touches(const WorldSolid& touched, const WorldSolid& other,
+                       const ReachSearch::Options& options) {
     // By more than the rounding above the limit, so that a ball that touches nothing else is found.
     const double radius = options.limit * (1 + kCentreError) + 4 * options.rounding;
     ReachSearch search(other, options);
@@ -117,17 +124,17 @@ Proof no_ball_touches(const WorldSolid& touched, const WorldSolid& other,
         [&](const Vec3& middle, double reach) {
             return search.rules_out_by_either(middle, reach);
         });
-    return search.proof();
+    return {search.proof(), search.counterexample()};
 }
 
 /// The proof of two statements together.
 template <typename First, typename Second>
-Proof both_hold(const First& first, const Second& second) {
-    const Proof one = first();
-    if (one == Proof::fails)
+Answer both_pass(const First& first, const Second& second) {
+    const Answer one = first();
+    if (one.proof == Proof::fails)
         return one;
-    const Proof other = second();
-    return other == Proof::holds ? one : other;
+    const Answer other = second();
+    return other.proof == Proof::holds ? one : other;
 }
 
 } // namespace
@@ -137,11 +144,12 @@ double rounding_of_lengths(const WorldSolid& a, const WorldSolid& b) {
     return depth_rounding(a, b) + 0x1p-50 * far;
 }
 
-Proof nowhere_deeper(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options) {
+Proof nowhere_deeper(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options,
+                     Vec3* found) {
     const SeenPair seen(a, b);
     const auto in = [&](const WorldSolid& surface, const WorldSolid& solid) {
         if (!solid.bounds_solid())
-            return Proof::holds;
+            return Answer{};
         return all_points_pass(
             surface, solid,
             {.limit = options.tolerance,
@@ -149,11 +157,15 @@ Proof nowhere_deeper(const WorldSolid& a, const WorldSolid& b, const ToleranceSe
              .bounds = bounds_of_depth(solid, options.directions, options.tolerance),
              .budget = options.budget});
     };
-    return both_hold([&] { return in(*seen.seen_a, *seen.seen_b); },
-                     [&] { return in(*seen.seen_b, *seen.seen_a); });
+    const Answer answer = both_pass([&] { return in(*seen.seen_a, *seen.seen_b); },
+                                    [&] { return in(*seen.seen_b, *seen.seen_a); });
+    if (found != nullptr)
+        *found = seen.origin + answer.found;
+    return answer.proof;
 }
 
-Proof nowhere_thicker(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options) {
+Proof nowhere_thicker(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options,
+                      Vec3* found) {
     const SeenPair seen(a, b);
     const auto touching = [&](const WorldSolid& touched, const WorldSolid& other) {
         const double radius = 0.5 * options.tolerance;
@@ -167,8 +179,11 @@ Proof nowhere_thicker(const WorldSolid& a, const WorldSolid& b, const ToleranceS
                                 .bounds = std::move(bounds),
                                 .budget = options.budget});
     };
-    return both_hold([&] { return touching(*seen.seen_a, *seen.seen_b); },
-                     [&] { return touching(*seen.seen_b, *seen.seen_a); });
+    const Answer answer = both_pass([&] { return touching(*seen.seen_a, *seen.seen_b); },
+                                    [&] { return touching(*seen.seen_b, *seen.seen_a); });
+    if (found != nullptr)
+        *found = seen.origin + answer.found;
+    return answer.proof;
 }
 
 Proof everywhere_near(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options) {
@@ -177,8 +192,9 @@ Proof everywhere_near(const WorldSolid& a, const WorldSolid& b, const ToleranceS
                                       .rounding = seen.rounding,
                                       .both_sides = true,
                                       .budget = options.budget};
-    return both_hold([&] { return all_points_pass(*seen.seen_a, *seen.seen_b, search); },
-                     [&] { return all_points_pass(*seen.seen_b, *seen.seen_a, search); });
+    return both_pass([&] { return all_points_pass(*seen.seen_a, *seen.seen_b, search); },
+                     [&] { return all_points_pass(*seen.seen_b, *seen.seen_a, search); })
+        .proof;
 }
 
 bool extents_overlap_little(const WorldSolid& a, const WorldSolid& b,

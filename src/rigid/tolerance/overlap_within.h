@@ -26,17 +26,22 @@ double rounding_of_lengths(const WorldSolid& a, const WorldSolid& b);
 
 /// Decides whether no surface point of a solid lies deeper than t in the other one. One of the two
 /// may be no solid: then only its points count.
-Proof nowhere_deeper(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options);
+///
+/// Out         found: if it fails, a surface point that lies deeper, in the world.
+Proof nowhere_deeper(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options,
+                     Vec3* found = nullptr);
 
 /// Decides whether the common part of two solids holds no ball of a diameter above t.
 ///
 /// In          no surface point of one lies deeper than t in the other.
+/// Out         found: if it fails, the middle of such a ball, in the world.
 /// Accuracy    `fails` is exact: there is a ball of a larger diameter. `holds`: there is none of a
 ///             diameter above (1 + 2^-6) t.
 /// Source      If there is such a ball, one of the same size touches a surface from inside. The
 ///             centres of balls that touch are on the surface, moved inward by their radius
 ///             (ball_centres.h).
-Proof nowhere_thicker(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options);
+Proof nowhere_thicker(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options,
+                      Vec3* found = nullptr);
 
 /// Decides whether each surface is everywhere within t of the other one.
 Proof everywhere_near(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options);

@@ -47,6 +47,46 @@ CellPlanes neighbourhood_of(const Triangle& t, double limit) {
     return planes;
 }
 
+/// A convex cell of points within `limit` of an edge or a vertex of a triangle, with x in it if x is
+/// nearer than the limit: a box in a cylinder around the edge, or in a ball around the vertex. It is as
+/// high as it must be to hold x; the higher, the narrower. Empty if there is no such cell.
+///
+/// In          x: a point beside the triangle.
+CellPlanes cell_beside(const PreparedTriangle& t, const Vec3& x, double limit, double rounding) {
+    const double half_square = std::sqrt(0.5);
+    CellPlanes planes;
+    const Vec3 q = t.nearest(x).b;
+    const double distance = length(x - q);
+    if (distance == 0 || distance >= limit)
+        return planes;
+    Vec3 along;
+    CuttingPlane begin, end;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 &p = t.corners()[i], &r = t.corners()[(i + 1) % 3];
+        const Vec3 edge = normalized_or_zero(r - p);
+        if (dot(q - p, edge) > 0 && dot(r - q, edge) > 0 && length(cross(q - p, edge)) <= rounding)
+            along = edge, begin = {p, -edge}, end = {r, edge};
+    }
+    const Vec3 up = normalized_or_zero(x - q - dot(x - q, along) * along);
+    if (up == Vec3{})
+        return planes;
+    const double height = std::max(0.5 * (distance + limit), half_square * limit);
+    double width = std::sqrt(limit * limit - height * height);
+    if (along == Vec3{}) {
+        width *= half_square;
+        along = normalized_or_zero(perpendicular(up));
+        begin = {q - width * along, -along}, end = {q + width * along, along};
+    }
+    const Vec3 aside = cross(up, along);
+    for (const double sign : {-1.0, 1.0}) {
+        planes.push_back({q + sign * height * up, sign * up});
+        planes.push_back({q + sign * width * aside, sign * aside});
+    }
+    planes.push_back(begin);
+    planes.push_back(end);
+    return planes;
+}
+
 /// A polygon to compare with many triangles.
 class MeetingTest {
 public:
@@ -190,8 +230,7 @@ void ReachSearch::examine(Piece& piece) {
     if (is_near(piece.polygon, solid_, {sample.nearest.slot}))
         return;
     const double distance = sample.nearest.distance, limit = options_.limit + options_.rounding;
-    if (distance <= limit &&
-        divide_near(piece, solid_.prepared_slot(sample.nearest.slot).corners()))
+    if (distance <= limit && divide_near(piece, solid_.prepared_slot(sample.nearest.slot)))
         return;
     if (distance > limit && options_.both_sides)
         return refute(sample.point);
@@ -209,7 +248,7 @@ void ReachSearch::examine(Piece& piece) {
     } else if (distance > limit && inside) {
         return refute(sample.point);
     }
-    if (met && divide_near(piece, *met))
+    if (met && divide_near(piece, PreparedTriangle(*met)))
         return;
     halve(piece);
 }
@@ -223,7 +262,7 @@ bool ReachSearch::settled_by_own(Piece& piece, const Sample& sample, bool deep) 
     const WorldSolid::Nearest nearest = own.nearest(sample.point, {.seed = seed});
     remember(piece.near_own, nearest.slot);
     if (nearest.distance <= limit)
-        return is_near_own(piece) || divide_near(piece, own.prepared_slot(nearest.slot).corners());
+        return is_near_own(piece) || divide_near(piece, own.prepared_slot(nearest.slot));
     if (is_inside(own, sample.point, piece.side_of_own)) {
         if (deep)
             refute(sample.point);
@@ -232,7 +271,7 @@ bool ReachSearch::settled_by_own(Piece& piece, const Sample& sample, bool deep) 
     if (nearest.distance > sample.radius + options_.rounding)
         return true;
     const std::optional<Triangle> met = triangle_met_by(piece.polygon, own, options_);
-    return !met || divide_near(piece, *met);
+    return !met || divide_near(piece, PreparedTriangle(*met));
 }
 
 /// Tells the side of a point off the surface, from a point nearby if the side of one is known.
@@ -255,12 +294,13 @@ void ReachSearch::refute(const Vec3& point) {
 
 /// Cuts away the part of a piece that a cell around a triangle proves to be near. Returns false if
 /// that would leave the piece whole.
-bool ReachSearch::divide_near(const Piece& piece, const Triangle& t) {
+bool ReachSearch::divide_near(const Piece& piece, const PreparedTriangle& t) {
     const auto try_cell = [&](const CellPlanes& planes) {
         return cut_away(piece, {planes.data(), planes.size()});
     };
-    return try_cell(prism_around(t, options_.limit)) ||
-           try_cell(neighbourhood_of(t, options_.limit));
+    return try_cell(prism_around(t.corners(), options_.limit)) ||
+           try_cell(neighbourhood_of(t.corners(), options_.limit)) ||
+           try_cell(cell_beside(t, middle_of(piece.polygon), options_.limit, options_.rounding));
 }
 
 bool ReachSearch::cut_away(const Piece& piece, std::span<const CuttingPlane> cell) {

@@ -19,6 +19,19 @@ enum class Proof : std::uint8_t {
     open,  ///< the budget is used up
 };
 
+/// What is known of two statements together.
+inline Proof both_hold(Proof p, Proof q) {
+    if (p == Proof::fails || q == Proof::fails)
+        return Proof::fails;
+    return p == Proof::holds ? q : p;
+}
+/// What is known of the statement that one of two holds.
+inline Proof either_holds(Proof p, Proof q) {
+    if (p == Proof::holds || q == Proof::holds)
+        return Proof::holds;
+    return p == Proof::fails ? q : p;
+}
+
 /// Decides whether all points of some polygons are outside a solid or near its surface.
 ///
 /// A point x is *beyond* if it lies in the solid farther than the limit from the solid's surface.
@@ -93,7 +106,7 @@ private:
     [[nodiscard]] bool settled_by_own(Piece& piece, const Sample& sample, bool deep);
     void refute(const Vec3& point);
     static bool is_inside(const WorldSolid& surface, const Vec3& point, KnownSide& known);
-    [[nodiscard]] bool divide_near(const Piece& piece, const Triangle& t);
+    [[nodiscard]] bool divide_near(const Piece& piece, const PreparedTriangle& t);
     [[nodiscard]] bool cut_away(const Piece& piece, std::span<const CuttingPlane> cell);
     void push(const FacePolygon& polygon, const Piece& parent);
     void halve(const Piece& piece);

@@ -16,11 +16,14 @@ namespace abut {
 ///
 /// In          contacts: all. `tolerance` is positive. No vertex of one surface lies on the other one:
 ///             sheet_shift() moves b so that this is true.
+/// Out         found: if it fails, a point of one surface, in the world, that goes on beyond the other
+///             one farther than the tolerance.
 /// Accuracy    `fails`: along some curve both surfaces go on farther than `tolerance`. `open`: the
 ///             budget of the search is used up.
 /// Cost        O(n log n) for surfaces of n triangles, and a search for each part beyond a curve.
 Proof sheets_cross_at_most(const WorldSolid& a, const WorldSolid& b,
-                           std::span<const Contact> contacts, double tolerance);
+                           std::span<const Contact> contacts, double tolerance,
+                           Vec3* found = nullptr);
 
 /// Returns a vector by which one of two surfaces is moved, so that their vertices and edges are in
 /// general position: 2^-40 of the pair's size, in a fixed direction.
