@@ -39,6 +39,12 @@ void set_volume(Clash& clash, const std::optional<OverlapVolume>& found) {
         clash.volume = found->volume, clash.volume_error = found->error;
 }
 
+void set_depth(Clash& clash, const LocalPenetration& p) {
+    clash.distance = -p.depth;
+    clash.point_a = p.point_a, clash.point_b = p.point_b;
+    clash.direction = p.direction;
+}
+
 /// Returns the clash of two parts of the same triangles; none if they have none. Their contacts are
 /// counted and not kept, because there are too many.
 std::optional<Clash> classify_duplicates(PartPair& pair) {
@@ -84,13 +90,9 @@ Clash classify_meeting(PartPair& pair, std::span<const Contact> contacts, double
         clash.direction = meeting.parting;
     const MeetingKind found = meeting_kind(pair, contacts, meeting, touch);
     clash.kind = found.kind;
-    const LocalPenetration& p = found.penetration;
     // A depth that rounding may have made is none.
-    if (p.depth > p.rounding) {
-        clash.distance = -p.depth;
-        clash.point_a = p.point_a, clash.point_b = p.point_b;
-        clash.direction = p.direction;
-    }
+    if (found.penetration.depth > found.penetration.rounding)
+        set_depth(clash, found.penetration);
     if (clash.kind != ClashKind::touch)
         set_volume(clash, overlap_volume(a, b));
     return clash;
@@ -114,20 +116,51 @@ Clash classify_near_duplicates(PartPair& pair, std::span<const Contact> contacts
     return clash;
 }
 
-/// Returns whether every component of `inner` lies inside `outer`. Their surfaces must not meet.
-bool lies_inside(BlockList& inner, BlockList& outer) {
-    if (!encloses(outer.part().box, inner.part().box))
-        return false;
+/// How many components of one part lie inside another one, and a point of one that does.
+struct Inside {
+    bool all = false, some = false;
+    Vec3 point;
+};
+
+/// In          the surfaces do not meet.
+Inside examine_inside(BlockList& inner, BlockList& outer) {
+    const Box3 &box = inner.part().box, &around = outer.part().box;
+    if (!overlap(box, around))
+        return {};
+    Inside result{encloses(around, box), false, {}};
     const std::vector<Vec3> points = inner.solid().component_points();
-    return std::all_of(points.begin(), points.end(),
-                       [&](const Vec3& point) { return outer.solid().winds_around(point); });
+    if (points.size() == 1 && !result.all)
+        return {};
+    for (const Vec3& point : points) {
+        const bool inside = encloses(around, {point, point}) && outer.solid().winds_around(point);
+        result.all = result.all && inside;
+        if (inside)
+            result.some = true, result.point = point;
+    }
+    return result;
+}
+
+/// Returns the clash of two parts whose surfaces do not meet, if some components of one lie inside the
+/// other one.
+Clash classify_partly_inside(PartPair& pair, const Vec3& point, double touch) {
+    const WorldSolid &a = pair.a().solid(), &b = pair.b().solid();
+    const MeetingKind found = kind_of_partly_inside(pair, point, touch);
+    Clash clash;
+    clash.kind = found.kind;
+    set_depth(clash, found.penetration);
+    if (clash.kind != ClashKind::touch)
+        set_volume(clash, overlap_volume(a, b));
+    return clash;
 }
 
 /// Returns the clash of two parts whose surfaces do not meet: `contained`, `touch`, `clearance` or
-/// none.
+/// none; `hard` or `undecided` if only some components lie inside the other part.
 std::optional<Clash> classify_apart(PartPair& pair, double clearance, double touch) {
-    const bool a_inside = lies_inside(pair.a(), pair.b());
-    const bool contained = a_inside || lies_inside(pair.b(), pair.a());
+    const Inside of_a = examine_inside(pair.a(), pair.b()),
+                 of_b = examine_inside(pair.b(), pair.a());
+    const bool contained = of_a.all || of_b.all;
+    if (!contained && (of_a.some || of_b.some))
+        return classify_partly_inside(pair, of_a.some ? of_a.point : of_b.point, touch);
     const double farthest = std::max(clearance, touch);
     if (!contained && farthest == 0)
         return std::nullopt;
@@ -151,7 +184,7 @@ std::optional<Clash> classify_apart(PartPair& pair, double clearance, double tou
     const Vec3 away = normalized_or_zero(gap.point_b - gap.point_a);
     clash.direction = contained ? -away : away;
     if (contained)
-        set_volume(clash, solid_volume(a_inside ? pair.a().solid() : pair.b().solid()));
+        set_volume(clash, solid_volume(of_a.all ? pair.a().solid() : pair.b().solid()));
     return clash;
 }
 

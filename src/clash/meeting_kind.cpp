@@ -125,9 +125,11 @@ LocalPenetration depth_of(const WorldSolid& a, const WorldSolid& b,
 
 MeetingKind meeting_kind(PartPair& pair, std::span<const Contact> contacts, const Meeting& meeting,
                          double touch) {
-    if (!meeting.interpenetrate)
-        return {};
     const WorldSolid &a = pair.a().solid(), &b = pair.b().solid();
+    // The contacts of faces inside their own solid are left out, so the others do not tell all.
+    const bool knows_all = touch == 0 || (a.boundary() == nullptr && b.boundary() == nullptr);
+    if (knows_all && !meeting.interpenetrate)
+        return {};
     MeetingKind result{ClashKind::hard, depth_of(a, b, contacts, touch)};
     if (touch == 0)
         return result;
@@ -136,6 +138,18 @@ MeetingKind meeting_kind(PartPair& pair, std::span<const Contact> contacts, cons
                              : cross_at_most(pair, touch, result.penetration);
     if (within != Proof::fails)
         result.kind = within == Proof::holds ? ClashKind::touch : ClashKind::undecided;
+    return result;
+}
+
+MeetingKind kind_of_partly_inside(PartPair& pair, const Vec3& point, double touch) {
+    const WorldSolid &a = pair.a().solid(), &b = pair.b().solid();
+    MeetingKind result{ClashKind::hard, depth_at(a, b, point)};
+    if (touch > 0 && result.penetration.depth <= touch) {
+        result.penetration.at_most = std::numeric_limits<double>::infinity();
+        const Proof within = overlaps_at_most(a, b, {}, touch, result.penetration);
+        if (within != Proof::fails)
+            result.kind = within == Proof::holds ? ClashKind::touch : ClashKind::undecided;
+    }
     return result;
 }
 

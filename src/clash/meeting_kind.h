@@ -27,6 +27,11 @@ struct MeetingKind {
 MeetingKind meeting_kind(PartPair& pair, std::span<const Contact> contacts, const Meeting& meeting,
                          double touch);
 
+/// As above, for parts without contacts of which some components lie inside the other part.
+///
+/// In          point: of such a component.
+MeetingKind kind_of_partly_inside(PartPair& pair, const Vec3& point, double touch);
+
 /// Returns whether each surface is proven to be everywhere within `touch` of the other one; also
 /// `open`, if neither that nor the opposite could be proven. In: `touch` is positive.
 Proof are_duplicates(PartPair& pair, double touch);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace abut::test {
@@ -151,9 +152,10 @@ TEST(TouchTolerance, KindsJustWithinAndJustBeyond) {
                     const double by = t * (within ? c.just_within : c.just_beyond);
                     const Mesh a = c.first(by), b = c.second(by);
                     const auto expected = within ? c.within : c.beyond;
-                    EXPECT_EQ(word_of(kind_of(classified(a, b, t, place.world, place.world))),
-                              word_of(expected))
-                        << by / t;
+                    const auto clash = classified(a, b, t, place.world, place.world);
+                    EXPECT_EQ(word_of(kind_of(clash)), word_of(expected)) << by / t;
+                    if (clash && clash->kind == hard)
+                        EXPECT_LT(clash->distance, -t) << by / t;
                     EXPECT_EQ(word_of(kind_of(classified(b, a, t, place.world, place.world))),
                               word_of(expected))
                         << "exchanged, " << by / t;
@@ -208,6 +210,78 @@ TEST(TouchTolerance, SheetsTouchIfOneEndsWithinTheTolerance) {
             EXPECT_EQ(word_of(kind_of(classified(sheet_mesh(0.9 * t, 1, n), floor_mesh(m), t))),
                       "touch");
         }
+}
+
+/// A flat sheet with a corner at p, in n columns along u and m rows along v.
+Mesh flat_sheet(const Vec3& p, const Vec3& u, const Vec3& v, int n, int m) {
+    return grid_mesh(n, m, false, false, [&](double s, double t) { return p + s * u + t * v; });
+}
+
+TEST(TouchTolerance, SheetsThatReachBeyondABorder) {
+    const double d = 0.01;
+    struct Case {
+        const char* name;
+        Vec3 p, u, v; ///< of a sheet that crosses the square from (-1, -1, 0) to (1, 1, 0)
+        double t;
+        ClashKind kind;
+    };
+    const std::vector<Case> cases{
+        {"pokes through, over both borders", {-2, 0, -d}, {4, 0, 0}, {0, 0, 1}, 2 * d, touch},
+        {"pokes through, over one border", {-0.5, 0.3, -d}, {4, 0, 0}, {0, 0, 1}, 2 * d, touch},
+        {"pokes through aslant", {-2, 0.1, -d}, {4, 0.7, 0}, {0, 0, 1}, 2 * d, touch},
+        {"pokes through farther than t", {-2, 0, -d}, {4, 0, 0}, {0, 0, 1}, 0.5 * d, hard},
+        {"passes through", {-2, 0, -0.5}, {4, 0, 0}, {0, 0, 1}, 0.1, hard},
+        {"passes through inside", {-0.5, 0, -0.5}, {1, 0, 0}, {0, 0, 1}, 2 * d, hard},
+        {"cuts off less than t", {1 - d, -2, -1}, {0, 4, 0}, {0, 0, 2}, 2 * d, touch},
+        {"cuts off more than t", {1 - 10 * d, -2, -1}, {0, 4, 0}, {0, 0, 2}, 2 * d, hard},
+    };
+    const std::vector<Transform> places{
+        {}, Pose{{3, -2, 5}, {0.8, 0.1, -0.5, 0.3}}, Pose{{1e4, 2e4, 30}, {1, 0, 0, 0}}};
+    for (const Case& c : cases)
+        for (const auto& [n, m] : {std::pair{1, 1}, {2, 3}, {5, 4}})
+            for (const auto& [k, l] : {std::pair{1, 1}, {5, 7}, {2, 1}}) {
+                SCOPED_TRACE(std::string(c.name) + " " + std::to_string(n) + " " +
+                             std::to_string(k));
+                const Mesh square = flat_sheet({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, n, m),
+                           other = flat_sheet(c.p, c.u, c.v, k, l);
+                for (const Transform& world : places)
+                    for (const auto& clash : {classified(square, other, c.t, world, world),
+                                              classified(other, square, c.t, world, world)}) {
+                        ASSERT_EQ(word_of(kind_of(clash)), to_string(c.kind));
+                        if (c.kind == hard)
+                            EXPECT_LT(clash->distance, -c.t);
+                    }
+            }
+}
+
+TEST(TouchTolerance, ANarrowStripThroughASheetIsHard) {
+    const double t = 0.02;
+    const Mesh strip = flat_sheet({-1, -0.005, 0}, {2, 0, 0}, {0, 0.01, 0}, 3, 1),
+               across = flat_sheet({0, -1, -1}, {0, 2, 0}, {0, 0, 2}, 2, 2),
+               along = flat_sheet({-1.5, 0, -1}, {3, 0, 0}, {0, 0, 2}, 2, 2);
+    EXPECT_EQ(word_of(kind_of(classified(strip, across, t))), "hard");
+    EXPECT_EQ(word_of(kind_of(classified(across, strip, t))), "hard");
+    EXPECT_EQ(word_of(kind_of(classified(strip, along, t))), "touch");
+    EXPECT_EQ(word_of(kind_of(classified(along, strip, t))), "touch");
+}
+
+TEST(TouchTolerance, PartsOfWhichOneShellIsInside) {
+    const Mesh block = box_mesh({0, 0, 0}, {2, 2, 2});
+    const Mesh two = joined(box_mesh({0.5, 0.5, 0.5}, {1, 1, 1}), box_mesh({3, 0, 0}, {4, 1, 1}));
+    for (const double t : {0.0, 1e-3}) {
+        const auto clash = classified(block, two, t);
+        ASSERT_TRUE(clash);
+        EXPECT_EQ(to_string(clash->kind), "hard");
+        EXPECT_LE(clash->distance, -0.5);
+        EXPECT_NEAR(clash->volume, 0.125, 1e-6);
+        EXPECT_EQ(word_of(kind_of(classified(two, block, t))), "hard");
+    }
+    // Both shells inside: contained.
+    EXPECT_EQ(word_of(kind_of(classified(
+                  box_mesh({0, 0, 0}, {5, 2, 2}),
+                  joined(box_mesh({0.5, 0.5, 0.5}, {1, 1, 1}), box_mesh({3, 0.5, 0.5}, {4, 1, 1})),
+                  1e-3))),
+              "contained");
 }
 
 TEST(TouchTolerance, GapsAreTouchesUpToTheToleranceAndClearancesBeyond) {

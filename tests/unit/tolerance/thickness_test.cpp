@@ -101,6 +101,37 @@ TEST(Thickness, LargestBallsOfKnownSolids) {
         }
 }
 
+TEST(Thickness, TolerancesNearTheThicknessAreDecided) {
+    // Also solids of which one shell is inside out, so that outward() is 0.
+    const Mesh floor = box_mesh({-0.5, -3, -3}, {0.5, 3, 3});
+    std::vector<KnownThickness> all = known_thicknesses();
+    for (const int sides : {12, 36}) {
+        const double inradius = std::cos(std::numbers::pi / sides);
+        const Mesh leg = prism_mesh(-1, 1, 0.3, sides), tube = ring_mesh(-1, 1, 0.5, 0.7, sides);
+        const Mesh inside_out = reversed(box_mesh({-1, 2, 2}, {1, 2.1, 2.1}));
+        all.push_back({"leg", joined(leg, inside_out), 0.6 * inradius});
+        all.push_back(
+            {"tube", joined(reversed(tube), box_mesh({-1, 2, 2}, {1, 2.1, 2.1})), 0.2 * inradius});
+    }
+    for (const KnownThickness& known : all)
+        for (const Mesh& other : {floor, box_mesh({-5, -5, -5}, {5, 5, 5})})
+            for (const double factor :
+                 {0.9, 0.98, 0.99, 0.999, 1 - 1e-9, 1.0, 1 + 1e-9, 1.001, 1.1}) {
+                SCOPED_TRACE(std::string(known.name) + " " + std::to_string(factor));
+                const Body body(known.mesh), around(other);
+                const double most = 1; // of the floor
+                if (known.thickness > most)
+                    continue;
+                const Proof proof =
+                    nowhere_thicker(body.placed, around.placed, {factor * known.thickness});
+                EXPECT_NE(proof, Proof::open);
+                if (factor < 1 / (1 + 0x1p-6))
+                    EXPECT_EQ(proof, Proof::fails);
+                if (factor > 1.001)
+                    EXPECT_EQ(proof, Proof::holds);
+            }
+}
+
 TEST(Thickness, NormalsMayPointInwardOrBothWays) {
     const Body around(box_mesh({-5, -5, -5}, {5, 5, 5}));
     Mesh mixed = box_mesh({-1, -0.2, -0.5}, {1, 0.2, 0.5});
