@@ -156,6 +156,18 @@ bool supports_meet(const SupportShape& a, const SupportShape& b, Vec3& direction
     return gap_of(a, b, 0, SupportDepths::no, true, direction).distance <= 0;
 }
 
+Vec3 common_point(const SupportShape& a, const SupportShape& b) {
+    const SupportPair pair(a, b);
+    const DifferencePoint points = support_distance(pair, {}).simplex.nearest();
+    const Vec3 way = points.b - points.a;
+    const double distance = length(way);
+    // Within the radius of a from the one point, and within that of b from the other.
+    const double along =
+        std::clamp(0.5 * (distance + pair.a().radius - pair.b().radius), 0.0, distance);
+    const Vec3 at = distance > 0 ? points.a + (along / distance) * way : points.a;
+    return a.centre + (1 / pair.factor()) * at;
+}
+
 double separation_along(const SupportShape& a, const SupportShape& b, const Vec3& normal) {
     const SupportPair pair(a, b);
     const double gap = dot(pair.farthest(-normal).at, normal) - pair.radii();

@@ -45,6 +45,9 @@ SupportGap support_gap(const SupportShape& a, const SupportShape& b, double uppe
 /// above.
 bool supports_meet(const SupportShape& a, const SupportShape& b, Vec3& direction);
 
+/// A point that two shapes share, to rounding. For shapes that are apart, a point between them.
+Vec3 common_point(const SupportShape& a, const SupportShape& b);
+
 /// A lower bound of the gap between two shapes along a unit vector from a to b. Rounding is taken
 /// off. Negative: the planes across the vector do not separate the shapes.
 double separation_along(const SupportShape& a, const SupportShape& b, const Vec3& normal);

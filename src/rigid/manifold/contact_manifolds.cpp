@@ -7,6 +7,7 @@
 #include "rigid/manifold/region_frame.h"
 #include "rigid/manifold/region_names.h"
 #include "rigid/manifold/region_points.h"
+#include "rigid/manifold/surface_manifolds.h"
 #include "rigid/manifold/triangle_meeting.h"
 #include "rigid/pair/separating_plane.h"
 #include "rigid/solid/containment.h"
@@ -227,11 +228,12 @@ bool any_meets(const std::vector<Contact>& pairs) {
                        [](const Contact& c) { return c.kind != TriangleContact::none; });
 }
 
-} // namespace
+/// What counts as contact of a solid inside the other, whose surfaces share no point.
+enum class Inside : std::uint8_t { apart, in_contact };
 
-std::vector<ModelManifold> contact_manifolds(const Model& a, const Transform& world_from_a,
-                                             const Model& b, const Transform& world_from_b,
-                                             const ManifoldOptions& options) {
+std::vector<ModelManifold> manifolds_of(const Model& a, const Transform& world_from_a,
+                                        const Model& b, const Transform& world_from_b,
+                                        const ManifoldOptions& options, Inside inside) {
     require_not_negative(options.margin, "margin");
     require(std::isfinite(options.margin), "margin must be finite");
     const StopScope stopping(options.progress);
@@ -240,16 +242,31 @@ std::vector<ModelManifold> contact_manifolds(const Model& a, const Transform& wo
     const PlacedPair pair(a, world_from_a, b, world_from_b);
     if (pair.world_from_a() != world_from_a || pair.world_from_b() != world_from_b)
         // A transform was flattened: the pair holds copies of the meshes in world coordinates.
-        return contact_manifolds(Model(pair.a().mesh()), {}, Model(pair.b().mesh()), {}, options);
+        return manifolds_of(Model(pair.a().mesh()), {}, Model(pair.b().mesh()), {}, options,
+                            inside);
     const std::vector<Contact> pairs = meeting_pairs(pair, options.margin);
     std::vector<ModelManifold> manifolds;
-    if (!any_meets(pairs))
+    if (inside == Inside::in_contact && !any_meets(pairs))
         manifolds = contained_manifold(a, world_from_a, b, world_from_b);
     if (manifolds.empty() && !pairs.empty())
         manifolds =
             ManifoldFinder(pair, a, b, pair.triangle_a(pairs[0].pair.a)[0], options).find(pairs);
     name_regions(manifolds, options.last);
     return manifolds;
+}
+
+} // namespace
+
+std::vector<ModelManifold> contact_manifolds(const Model& a, const Transform& world_from_a,
+                                             const Model& b, const Transform& world_from_b,
+                                             const ManifoldOptions& options) {
+    return manifolds_of(a, world_from_a, b, world_from_b, options, Inside::in_contact);
+}
+
+std::vector<ModelManifold> surface_manifolds(const Model& a, const Transform& world_from_a,
+                                             const Model& b, const Transform& world_from_b,
+                                             const ManifoldOptions& options) {
+    return manifolds_of(a, world_from_a, b, world_from_b, options, Inside::apart);
 }
 
 } // namespace abut

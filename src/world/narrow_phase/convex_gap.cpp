@@ -13,9 +13,6 @@ namespace {
 
 /// Distances below this share of the coordinates do not tell their direction.
 constexpr double kClearOfTouching = 0x1p-36;
-/// Distances above this share of the coordinates tell their direction to about 2^-40, which moves no
-/// point of the bodies by more than a search for a distance does.
-constexpr double kTellsDirection = 0x1p-12;
 /// Bound of the rounding of the way between two witness points, relative to the coordinates.
 constexpr double kWayRounding = 0x1p-48;
 /// A motion that is slight beside the bodies, but far above rounding, relative to their size.

@@ -102,7 +102,12 @@ BodyGap measure_models(const Model& a, const Transform& world_from_a, const Mode
     options.upper_bound = std::max(upper_bound, 0.0);
     options.signed_distance = depths == Depths::yes;
     options.warm_start = &warm_start.surfaces;
-    return from_rigid(distance(a, world_from_a, b, world_from_b, options));
+    BodyGap gap = from_rigid(distance(a, world_from_a, b, world_from_b, options));
+    // The depth of a point in a solid is a bound of the length of a separating motion, however
+    // exact it is.
+    if (gap.distance < 0)
+        gap.status = Status::bound_only;
+    return gap;
 }
 
 /// Subtracts a radius around b's core, which is a point, a segment or a box.
