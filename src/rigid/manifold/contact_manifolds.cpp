@@ -3,6 +3,7 @@
 #include <abut/penetration.h>
 
 #include "core/arguments.h"
+#include "geometry/triangle_triangle_distance.h"
 #include "rigid/manifold/meeting_regions.h"
 #include "rigid/manifold/region_frame.h"
 #include "rigid/manifold/region_names.h"
@@ -228,6 +229,26 @@ bool any_meets(const std::vector<Contact>& pairs) {
                        [](const Contact& c) { return c.kind != TriangleContact::none; });
 }
 
+/// The manifold of the nearest pair of triangles. A solid inside the other looks at the back of its
+/// faces, which have no region in common with it.
+ModelManifold manifold_of_nearest(const PlacedPair& pair, const std::vector<Contact>& pairs) {
+    ClosestPoints nearest;
+    for (const Contact& each : pairs) {
+        const ClosestPoints points =
+            triangle_triangle_distance(pair.triangle_a(each.pair.a), pair.triangle_b(each.pair.b));
+        if (&each == pairs.data() || points.distance_sq < nearest.distance_sq)
+            nearest = points;
+    }
+    ModelManifold m;
+    m.normal = normalized_or_zero(nearest.b - nearest.a);
+    if (m.normal == Vec3{})
+        m.normal = {0, 0, 1};
+    m.count = 1;
+    m.points[0] = {nearest.a, nearest.b, -std::sqrt(nearest.distance_sq), point_name::kMiddle};
+    m.status = Status::bound_only;
+    return m;
+}
+
 /// What counts as contact of a solid inside the other, whose surfaces share no point.
 enum class Inside : std::uint8_t { apart, in_contact };
 
@@ -251,6 +272,8 @@ std::vector<ModelManifold> manifolds_of(const Model& a, const Transform& world_f
     if (manifolds.empty() && !pairs.empty())
         manifolds =
             ManifoldFinder(pair, a, b, pair.triangle_a(pairs[0].pair.a)[0], options).find(pairs);
+    if (manifolds.empty() && !pairs.empty() && inside == Inside::apart)
+        manifolds.push_back(manifold_of_nearest(pair, pairs));
     name_regions(manifolds, options.last);
     return manifolds;
 }
