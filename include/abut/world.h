@@ -48,7 +48,7 @@ struct WorldOptions {
 ///   other pairs with a model, World::penetration says which lower bound of that motion it is.
 struct BodyGap {
     BodyId a, b;
-    double distance = 0; ///< 0 if the bodies touch
+    double distance = 0; ///< 0 if they touch; a gap below rounding is the least number above 0
     /// Witness points on the bodies: point_b = point_a + distance * normal, to rounding.
     Vec3 point_a, point_b;
     /// Unit vector from a to b. Bodies that penetrate: b moves along it. Zero where none is known:
