@@ -48,17 +48,15 @@ void bind_world_results(py::module_& module) {
         .field("a", &BodyGap::a, "body")
         .field("b", &BodyGap::b, "body")
         .field("distance", &BodyGap::distance,
-               "length; 0 if they touch, minus the depth if they interpenetrate. A model is its surface "
-               "until they share a point")
+               "length; 0 if they touch, minus the depth if they interpenetrate")
         .field("point_a", &BodyGap::point_a, "on a")
         .field("point_b", &BodyGap::point_b, "on b: point_a + distance * normal, to rounding")
         .field("normal", &BodyGap::normal, "unit vector from a to b; zero where none is known")
         .field("triangle_a", &BodyGap::triangle_a, "of a model; else 0")
         .field("triangle_b", &BodyGap::triangle_b, "of a model; else 0")
         .field("status", &BodyGap::status,
-               "Status; bound_only: bodies of which one is a model go at least so deep into each other; "
-               "of two solids, and of models that coincide, a motion of this length separates them, "
-               "and a shorter one may")
+               "Status; bound_only: with a model, they go at least so deep into each other; two "
+               "solids, and models that coincide, may be separated by a shorter motion")
         .done();
     RecordBinder<ContactPoint>(module, "ContactPoint", "A point of a ContactManifold.")
         .field("point_a", &ContactPoint::point_a, "on a")
@@ -77,8 +75,7 @@ void bind_world_results(py::module_& module) {
         .field("count", &ContactManifold::count, "of the points that are set")
         .field("points", &ContactManifold::points, "list of ContactPoint: four, the deepest first")
         .field("status", &ContactManifold::status,
-               "Status; bound_only: of two models, depths are those of lines along the normal; else as "
-               "of BodyGap")
+               "Status; bound_only: of two models, along the normal; else as of BodyGap")
         .done();
     RecordBinder<BodyImpact>(module, "BodyImpact", "A pair of bodies that meet in a step.")
         .field("a", &BodyImpact::a, "body")
@@ -274,7 +271,8 @@ void add_world_queries(py::class_<Bodies>& type) {
             "motions  a dict of body to Motion, or a list of (body, Motion); others stay where "
             "they are, and\n"
             "         deformables move as their steps say. Two bodies at rest are no pair\n\n"
-            "Bodies that share a point at t = 0 have the time 0, a zero normal, and one point of both "
+            "Bodies that share a point at t = 0 have the time 0, a zero normal, and one point of "
+            "both "
             "for point_a and\n"
             "point_b.");
 }
