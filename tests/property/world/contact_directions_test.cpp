@@ -344,7 +344,8 @@ TEST(ContactDirections, WitnessPointsOfThinCurvedBodiesLieOnThem) {
     EXPECT_LE(length(disc.point_b - disc.point_a - disc.distance * disc.normal), 1e-11);
     World block_in_drum;
     block_in_drum.add(Box3{{-1e-4, -1e-4, -1e-4}, {1e-4, 1e-4, 1e-4}}, {});
-    block_in_drum.add(Cylinder{{{0, 0, -1e4}, {0, 0, 1e4}}, 5000}, Pose{{0, 1e-12, 0}, {1, 0, 0, 0}});
+    block_in_drum.add(Cylinder{{{0, 0, -1e4}, {0, 0, 1e4}}, 5000},
+                      Pose{{0, 1e-12, 0}, {1, 0, 0, 0}});
     EXPECT_NEAR(block_in_drum.penetration().at(0).distance, -5000.0001, 2e-8);
 }
 
