@@ -55,8 +55,8 @@ struct Depth {
     /// other. This is verified for world_from_b with the translation added to its last column. The
     /// shortest such translation may be shorter. Zero if the models are apart.
     Vec3 separation;
-    Status status = Status::exact; ///< bound_only: the largest depth lies between depth and
-                                   ///< depth_at_most
+    Status status = Status::exact; ///< bound_only: the largest depth is in [depth, depth_at_most];
+                                   ///< or, always: open shells, solids that coincide, see `depth`
     /// The search ended because of PenetrationOptions::max_steps. The largest depth lies between
     /// `depth` and `depth_at_most`, and `separation`, if requested, separates the models. If the
     /// steps did not suffice to find where the models meet, there are no regions; `meet` and

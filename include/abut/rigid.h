@@ -113,8 +113,8 @@ struct DistanceOptions {
     /// the result.
     double absolute_error = 0, relative_error = 0;
     /// Makes the distance negative where the models penetrate or one lies inside the other. It is
-    /// then minus the depth, as abut/penetration.h defines it, attained at the points (bound_only:
-    /// the depth may be larger). The errors allowed and the bound apply only to models that are
+    /// then minus the depth, as abut/penetration.h defines it, attained at the points (bound_only
+    /// as Depth::status says). The errors allowed and the bound apply only to models that are
     /// apart.
     bool signed_distance = false;
     WarmStart* warm_start = nullptr;

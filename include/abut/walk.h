@@ -97,7 +97,7 @@ struct WalkGap {
     Vec3 point_part, point_probe; ///< witness points, that far apart
     Vec3 normal; ///< unit vector from the part to the probe; zero where none is known
     std::uint32_t triangle_part = 0, triangle_probe = 0; ///< of meshes; else 0
-    /// exact: to rounding. bound_only: bodies that meet are at least this deep in each other.
+    /// As BodyGap::status (abut/world.h). Always bound_only for models that are deep in each other.
     Status status = Status::exact;
 };
 

@@ -48,7 +48,7 @@ struct WorldOptions {
 ///   other pairs with a model, World::penetration says which lower bound of that motion it is.
 struct BodyGap {
     BodyId a, b;
-    double distance = 0; ///< 0 if the bodies touch
+    double distance = 0; ///< 0 if they touch; a gap below rounding is the least number above 0
     /// Witness points on the bodies: point_b = point_a + distance * normal, to rounding.
     Vec3 point_a, point_b;
     /// Unit vector from a to b. Bodies that penetrate: b moves along it. Zero where none is known:
@@ -56,9 +56,9 @@ struct BodyGap {
     /// common point.
     Vec3 normal;
     std::uint32_t triangle_a = 0, triangle_b = 0; ///< of models; else 0
-    /// exact: to rounding. bound_only: with a model, bodies that meet are at least this deep in each
-    /// other; for two solids, moving b by the depth along the normal separates them, but no proof
-    /// excludes a slightly shorter motion.
+    /// exact: to rounding. bound_only: bodies of which one is a model are at least this deep in
+    /// each other. For two solids, and for models that coincide, a motion of this length separates
+    /// them, but no proof excludes a shorter one.
     Status status = Status::exact;
 };
 
@@ -211,10 +211,10 @@ public:
     /// where two bodies meet or are near, a normal and up to four points. Sorted by pair, then by
     /// region.
     ///
-    /// Accuracy    for convex bodies, spheres, capsules and boxes: the normal is the direction of
-    ///             the shortest separating motion, or of the distance, and the first point has that
-    ///             depth, to rounding. For models and deformables, with each other, boxes and convex
-    ///             bodies: as `contact_manifolds` of models; else one point, as `penetration`.
+    /// Accuracy    for convex bodies, spheres, capsules, boxes: the normal is that of BodyGap, and
+    ///             the first point has its depth. Models, deformables with each other, boxes,
+    ///             convex bodies: as `contact_manifolds` of models, but a body in a closed model,
+    ///             clear of its surface, is apart. For all others one point, as `penetration`.
     /// Errors      Error{bad_argument} if the margin is negative or not finite.
     /// Cost        with a margin, a second broad phase, which is kept from step to step. Contacts
     ///             of two models or deformables are kept while both stay in place.
@@ -223,8 +223,8 @@ public:
 
     /// Finds when bodies that move in this step first meet. Each pair is listed once; the list is
     /// sorted. Deformables move as their steps define, with the same t from 0 to 1 as the motions.
-    /// Other bodies that are not named stay at rest, and two of them are not tested. A pair that
-    /// meets at t = 0 has time 0 and no normal.
+    /// Other bodies stay at rest, and two at rest are not tested. A pair that shares a point at
+    /// t = 0 has time 0 and a zero normal; both points are one point of both bodies, to rounding.
     ///
     /// Accuracy    as `time_of_impact`: no time is later than the first contact, and no contact is
     ///             missed. A deformable meets a cylinder, cone or ellipsoid when it meets a

@@ -512,7 +512,7 @@ class BodyGap:
         """on a"""
     @property
     def point_b(self) -> NDArray[np.float64]:
-        """on b"""
+        """on b: point_a + distance * normal, to rounding"""
     @property
     def normal(self) -> NDArray[np.float64]:
         """unit vector from a to b; zero where none is known"""
@@ -524,7 +524,7 @@ class BodyGap:
         """of a model; else 0"""
     @property
     def status(self) -> Status:
-        """Status; bound_only: they go at least so deep into each other"""
+        """Status; bound_only: with a model, they go at least so deep into each other; two solids, and models that coincide, may be separated by a shorter motion"""
 
 class BodyImpact:
     """A pair of bodies that meet in a step."""
@@ -1134,7 +1134,7 @@ class ContactManifold:
         """list of ContactPoint: four, the deepest first"""
     @property
     def status(self) -> Status:
-        """Status; bound_only: bodies that meet are at least this deep in each other"""
+        """Status; bound_only: of two models, along the normal; else as of BodyGap"""
 
 class ContactMode(IntEnum):
     """Whether to stop at the first pair."""
@@ -4476,11 +4476,15 @@ class World:
         """When bodies that move first meet, each pair once: a record array of BodyImpact.
 
         motions  a dict of body to Motion, or a list of (body, Motion); others stay where they are, and
-                 deformables move as their steps say
+                 deformables move as their steps say. Two bodies at rest are no pair
+
+        Bodies that share a point at t = 0 have the time 0, a zero normal, and one point of both for point_a and
+        point_b.
         """
     def contact_manifolds(self, margin: float = ..., *, progress: _Progress = ...) -> np.recarray[Any, Any]:
         """The contacts of all pairs at most `margin` apart, a length: for each region a normal and up to four points. A
-        record array of ContactManifold. Error (bad_argument) if the margin is negative.
+        record array of ContactManifold. A body inside a closed model, clear of its surface, is apart from it by the
+        distance of that surface. Error (bad_argument) if the margin is negative.
         """
     def set_speed(self, body: int, velocity: ArrayLike = ..., acceleration: ArrayLike = ..., acceleration_bound: float = ..., angular_speed: float = ..., angular_acceleration: float = ..., angular_velocity: ArrayLike = ...) -> None:
         """Bounds on the body's motion from its place and the time of the last `advance`. Call it before `move`.

@@ -95,8 +95,10 @@ class CollisionManager:
 
     As with trimesh, a convex mesh is a solid, so that it meets what lies inside it; any other mesh is its
     surface. The distance of objects that overlap is minus the depth: of two convex meshes, the length of the
-    shortest translation that parts them, as in trimesh; else the depth that abut.penetration tells. It is 0 if
-    they only touch, or if they meet and neither mesh is closed. Poses are rigid, of shape (4, 4).
+    shortest translation that parts them, as in trimesh; else the depth that abut.penetration tells, which is
+    a lower bound of that length. It is 0 if they only touch. An open mesh contains nothing: it meets what
+    crosses or touches its triangles, and two open meshes that cross have the distance 0, since no side of them
+    is inside. Poses are rigid, of shape (4, 4).
     """
 
     def __init__(self):

@@ -171,10 +171,10 @@ bool go_on(const PlacedBodies& bodies, double rounding, const ConvexWarmStart& l
         return {};
     const bool is_simplified = bodies.level_a + bodies.level_b > 0;
     if (search.at.end == WalkEnd::closest && is_simplified) {
-        const double bound = certain_distance(pair, {}, {}, rounding, search.at),
-                     distance = std::sqrt(search.at.distance_sq);
-        if (is_tight(bound, distance, rounding + world_rounding(pair)))
-            return {distance, std::min(bound, distance)};
+        const DistanceBounds bounds = distance_bounds(pair, {}, {}, rounding, search.at);
+        const double distance = std::sqrt(search.at.distance_sq);
+        if (is_tight(bounds, distance, rounding))
+            return {distance, std::min(bounds.certain, distance)};
     }
     if (!is_at_level || is_simplified) {
         // Begin anew: the search has numbers of other polytopes.

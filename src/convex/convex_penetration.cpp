@@ -129,14 +129,16 @@ std::optional<NearestBoundary> begin_shallow(const Bodies& bodies, const Differe
 /// Returns whether both bounds are proven and equal to rounding. The upper bound is proven by
 /// looking at all vertices if the search did not prove it.
 bool is_proven(const Bodies& bodies, const NearestBoundary& nearest) {
-    const double error = bodies.rounding + world_rounding(bodies.pair);
-    if (!(nearest.is_inside_proven && nearest.depth - nearest.at_least <= 12 * error))
+    // `at_least` is less by four roundings of the world's positions, which say nothing about how
+    // near the two bounds are.
+    const double width = nearest.depth - nearest.at_least - 4 * world_rounding(bodies.pair);
+    if (!(nearest.is_inside_proven && width <= 12 * bodies.rounding))
         return false;
     if (nearest.is_depth_proven)
         return true;
     const double reach = highest(bodies.pair.b, bodies.b.left_out, nearest.normal) +
                          highest(bodies.pair.a, bodies.a.left_out, -nearest.normal);
-    return reach <= nearest.depth + 4 * error;
+    return reach <= nearest.depth + 4 * bodies.rounding;
 }
 
 /// Computes the depth in integers; none if the bodies do not meet.

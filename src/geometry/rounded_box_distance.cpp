@@ -281,11 +281,11 @@ SolidGap gap_of_ball(const RoundedBox& box, const RoundedBox& ball) {
     }
     SolidGap gap;
     gap.distance = length(out);
-    if (gap.distance > 0) {
+    if (gap.distance > kBoxGapRounding * size_of_both(box, ball)) {
         gap.normal = (1 / gap.distance) * out;
-    } else { // the centre lies in the box: the way out is through the nearest face
+    } else { // the centre lies in the box, or on its surface to rounding: out through a face
         gap.normal = along[last] < 0 ? -box.axis[last] : box.axis[last];
-        gap.distance = std::min(std::abs(along[last]) - box.half[last], 0.0);
+        gap.distance = std::abs(along[last]) - box.half[last];
         nearest = way - gap.distance * gap.normal;
     }
     gap.point_a = box.centre + (nearest + box.radius * gap.normal);

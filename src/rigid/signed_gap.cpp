@@ -33,7 +33,7 @@ Gap minus_depth(const LocalPenetration& p) {
     gap.at_least = -(p.at_most + p.rounding);
     gap.point_a = p.point_a, gap.point_b = p.point_b;
     gap.triangle_a = p.triangles.a, gap.triangle_b = p.triangles.b;
-    gap.status = p.at_most > p.depth ? Status::bound_only : Status::exact;
+    gap.status = p.is_in_solid && p.at_most <= p.depth ? Status::exact : Status::bound_only;
     return gap;
 }
 

@@ -14,8 +14,9 @@ namespace abut {
 ///
 /// In/out      `apart`: options for models that are apart.
 /// Degenerate  open shells contain nothing: if they cross, the depth is that of triangles as
-///             Depth::depth defines it, at one common point. Solids that coincide are handled in
-///             the same way. Flattened models contain nothing either.
+///             Depth::depth defines it, at one common point (bound_only). Solids that coincide have
+///             the length of a motion that separates them (bound_only). Flattened models contain
+///             nothing either.
 /// Accuracy    apart: to double rounding. Inside: |distance| is reached at the points, and so is a
 ///             lower bound of the depth (status bound_only), to the accuracy asked for unless the
 ///             search's budget is used up.

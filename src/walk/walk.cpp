@@ -94,6 +94,7 @@ WalkGap depth_within(const NearEntry& entry, const PlacedProbe& probe, std::uint
     // The models touch, so what the steps did not suffice for is a distance of 0.
     if (gap.distance < 0) {
         result.distance = gap.distance;
+        result.status = Status::bound_only; // the depth of a point, not that of the bodies
         result.point_part = gap.point_a, result.point_probe = gap.point_b;
         result.normal = normalized_or_zero(gap.point_a - gap.point_b);
         result.triangle_part = entry.triangle(gap.triangle_a);

@@ -268,16 +268,18 @@ std::vector<BodyImpact> World::time_of_impact(const std::vector<BodyMotion>& mot
     require_not_negative(options.absolute_error.value_or(0), "absolute error");
     const std::vector<Body>& bodies = data_->bodies();
     std::vector<Motion> motion_of(bodies.size());
-    std::vector<std::uint8_t> moves(bodies.size(), 0);
+    std::vector<std::uint8_t> named(bodies.size(), 0), moves(bodies.size(), 0);
     for (const BodyMotion& each : motions) {
         static_cast<void>(data_->body(each.body)); // throws if the id is not valid
         naming(each.body, [&] {
             require_rigid(bodies[each.body.index]);
-            require(moves[each.body.index] == 0, "moves twice in one step");
+            require(named[each.body.index] == 0, "moves twice in one step");
             static_cast<void>(at(each.motion, 1)); // throws if the motion is not valid
         });
         motion_of[each.body.index] = each.motion;
-        moves[each.body.index] = 1;
+        named[each.body.index] = 1;
+        moves[each.body.index] =
+            each.motion.velocity == Vec3{} && each.motion.angular_velocity == Vec3{} ? 0 : 1;
     }
     data_->update_if_changed();
     std::vector<Box3> swept(bodies.size());
@@ -285,7 +287,7 @@ std::vector<BodyImpact> World::time_of_impact(const std::vector<BodyMotion>& mot
         const Body& body = bodies[i];
         if (!body.alive)
             return;
-        if (moves[i] == 0)
+        if (named[i] == 0)
             motion_of[i] = Motion::fixed(body.pose);
         if (const auto* surface = std::get_if<DeformableShape>(&body.shape))
             moves[i] = surface->surface->data().is_at_rest() ? 0 : 1;

@@ -50,12 +50,13 @@ void bind_world_results(py::module_& module) {
         .field("distance", &BodyGap::distance,
                "length; 0 if they touch, minus the depth if they interpenetrate")
         .field("point_a", &BodyGap::point_a, "on a")
-        .field("point_b", &BodyGap::point_b, "on b")
+        .field("point_b", &BodyGap::point_b, "on b: point_a + distance * normal, to rounding")
         .field("normal", &BodyGap::normal, "unit vector from a to b; zero where none is known")
         .field("triangle_a", &BodyGap::triangle_a, "of a model; else 0")
         .field("triangle_b", &BodyGap::triangle_b, "of a model; else 0")
         .field("status", &BodyGap::status,
-               "Status; bound_only: they go at least so deep into each other")
+               "Status; bound_only: with a model, they go at least so deep into each other; two "
+               "solids, and models that coincide, may be separated by a shorter motion")
         .done();
     RecordBinder<ContactPoint>(module, "ContactPoint", "A point of a ContactManifold.")
         .field("point_a", &ContactPoint::point_a, "on a")
@@ -74,7 +75,7 @@ void bind_world_results(py::module_& module) {
         .field("count", &ContactManifold::count, "of the points that are set")
         .field("points", &ContactManifold::points, "list of ContactPoint: four, the deepest first")
         .field("status", &ContactManifold::status,
-               "Status; bound_only: bodies that meet are at least this deep in each other")
+               "Status; bound_only: of two models, along the normal; else as of BodyGap")
         .done();
     RecordBinder<BodyImpact>(module, "BodyImpact", "A pair of bodies that meet in a step.")
         .field("a", &BodyImpact::a, "body")
@@ -269,7 +270,11 @@ void add_world_queries(py::class_<Bodies>& type) {
             "When bodies that move first meet, each pair once: a record array of BodyImpact.\n\n"
             "motions  a dict of body to Motion, or a list of (body, Motion); others stay where "
             "they are, and\n"
-            "         deformables move as their steps say");
+            "         deformables move as their steps say. Two bodies at rest are no pair\n\n"
+            "Bodies that share a point at t = 0 have the time 0, a zero normal, and one point of "
+            "both "
+            "for point_a and\n"
+            "point_b.");
 }
 
 void add_world_contacts(py::class_<Bodies>& type) {
@@ -283,7 +288,9 @@ void add_world_contacts(py::class_<Bodies>& type) {
         py::arg("margin") = 0.0, py::kw_only(), py::arg("progress") = py::none(),
         "The contacts of all pairs at most `margin` apart, a length: for each region a normal "
         "and up to four points. A\n"
-        "record array of ContactManifold. Error (bad_argument) if the margin is negative.");
+        "record array of ContactManifold. A body inside a closed model, clear of its surface, is "
+        "apart from it by the\n"
+        "distance of that surface. Error (bad_argument) if the margin is negative.");
 }
 
 void add_world_schedule(py::class_<Bodies>& type) {

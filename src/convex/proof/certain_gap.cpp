@@ -180,19 +180,19 @@ double highest(const PlacedPolytope& side, std::span<const Vec3> left_out, const
     return most + dot(direction, side.offset);
 }
 
-double certain_distance(const PolytopePair& pair, std::span<const Vec3> left_out_a,
-                        std::span<const Vec3> left_out_b, double rounding, const WalkState& at) {
-    // Two roundings for the heights, one for their quotient, one for the positions.
-    const double error = 4 * (rounding + world_rounding(pair));
-    double bound = -std::numeric_limits<double>::infinity();
+DistanceBounds distance_bounds(const PolytopePair& pair, std::span<const Vec3> left_out_a,
+                               std::span<const Vec3> left_out_b, double rounding,
+                               const WalkState& at) {
+    double room = -std::numeric_limits<double>::infinity();
     for (const Vec3& n : {at.gap, across(pair, at)}) {
         const double size = length(n);
         if (!(size > 0x1p-300 && size < 0x1p300))
             continue;
-        const double room = -highest(pair.b, left_out_b, -n) - highest(pair.a, left_out_a, n);
-        bound = std::max(bound, room / size - error);
+        const double along = -highest(pair.b, left_out_b, -n) - highest(pair.a, left_out_a, n);
+        room = std::max(room, along / size);
     }
-    return bound;
+    // Two roundings for the heights, one for their quotient, one for the positions.
+    return {room - 4 * rounding, room - 4 * (rounding + world_rounding(pair))};
 }
 
 bool surely_meet(const PolytopePair& pair, double rounding, const WalkState& at) {
@@ -212,12 +212,12 @@ CertainDistance settle_gap(const PlacedConvexPair& bodies, double rounding,
     const PolytopePair pair = bodies.pair();
     WalkState& at = search.at;
     if (at.end == WalkEnd::closest) {
-        const double bound =
-            certain_distance(pair, bodies.a.left_out, bodies.b.left_out, rounding, at);
+        const DistanceBounds bounds =
+            distance_bounds(pair, bodies.a.left_out, bodies.b.left_out, rounding, at);
         const double distance = std::sqrt(at.distance_sq);
-        if (is_tight(bound, distance, rounding + world_rounding(pair))) {
+        if (is_tight(bounds, distance, rounding)) {
             at.proven = true;
-            return {distance, std::min(bound, distance)};
+            return {distance, std::min(bounds.certain, distance)};
         }
     }
     return decide(bodies, pair, search);

@@ -32,21 +32,31 @@ struct CertainDistance {
 /// The largest height of a body along a direction, in the pair's frame.
 double highest(const PlacedPolytope& side, std::span<const Vec3> left_out, const Vec3& direction);
 
-/// A certain lower bound of the distance of two polytopes, which may be negative. All vertices are
-/// compared along the gap that a search has found, and along the direction perpendicular to its
-/// features.
+/// Lower bounds of the distance of two polytopes, which may be negative.
+struct DistanceBounds {
+    double in_frame = 0; ///< for the polytopes in the pair's frame
+    double certain = 0;  ///< for their vertices at the rounded positions of abut/types.h
+};
+
+/// Bounds the distance of two polytopes from below. All vertices are compared along the gap that a
+/// search has found, and along the direction perpendicular to its features.
 ///
 /// In          `left_out_a`, `left_out_b`: further points of each body.
-double certain_distance(const PolytopePair& pair, std::span<const Vec3> left_out_a,
-                        std::span<const Vec3> left_out_b, double rounding, const WalkState& at);
+DistanceBounds distance_bounds(const PolytopePair& pair, std::span<const Vec3> left_out_a,
+                               std::span<const Vec3> left_out_b, double rounding,
+                               const WalkState& at);
 
 /// Returns whether two polytopes certainly meet in a face of one and an edge of the other, given a
 /// search that ended as `meeting` without a simplex.
 bool surely_meet(const PolytopePair& pair, double rounding, const WalkState& at);
 
-/// Returns whether a lower bound is close enough to a distance to prove it.
-inline bool is_tight(double bound, double distance, double rounding) {
-    return bound > 0 && bound >= distance * (1 - 0x1p-40) - 12 * rounding;
+/// Returns whether lower bounds are close enough to a distance to prove it. How far the bodies are
+/// from the world's origin matters only for whether they are apart at all: a distance that a search
+/// has not found to the rounding in the pair's frame is not the distance, wherever the bodies are.
+///
+/// In          rounding: of a coordinate in the pair's frame.
+inline bool is_tight(const DistanceBounds& bounds, double distance, double rounding) {
+    return bounds.certain > 0 && bounds.in_frame >= distance * (1 - 0x1p-40) - 12 * rounding;
 }
 
 /// Proves what a search on the bodies' own polytopes has found but not proven, or replaces it by an

@@ -2,6 +2,7 @@
 
 #include "convex/support/growing_polytope.h"
 #include "convex/support/refined_gap.h"
+#include "convex/support/support_distance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -74,7 +75,11 @@ public:
         constexpr int kMostBeyond = 32;
         for (int step = 0; step < kMostBeyond && !on_boundary_ && advance(); ++step) {
         }
-        return result({outward_, best_, polytope_.facet_along(outward_).nearest()});
+        try_axes();
+        SupportDepth depth = result({outward_, best_, polytope_.facet_along(outward_).nearest()});
+        descend(depth);
+        depth.at_least = std::min(depth.at_least, depth.depth);
+        return depth;
     }
 
 private:
@@ -94,6 +99,39 @@ private:
             best_ = std::min(best_, depth), outward_ = facet.normal;
         return polytope_.size() < most_points_ && !on_boundary_ &&
                polytope_.add(point, pair_.rounding());
+    }
+
+    /// Takes the direction of an axis of a shape if that leaves the other one sooner: among motions
+    /// that are nearly as short as each other, those along an axis are the shortest most often.
+    void try_axes() {
+        for (const SupportShape* shape : {&pair_.a(), &pair_.b()})
+            for (const Vec3& axis : shape->axis)
+                for (const Vec3& outward : {axis, -axis})
+                    if (const double depth = dot(pair_.farthest(outward).at, outward);
+                        depth < best_)
+                        best_ = depth, outward_ = outward;
+    }
+
+    /// Shortens the motion, and finds the points that it brings together. After the motion, and
+    /// slightly more, the closest points of the shapes are a slight gap g apart. If they are farther
+    /// apart, the motion was not the shortest: that along g is shorter by at least |g| - slight. If
+    /// not, g lies along the motion, and so does the vector between the points before it.
+    void descend(SupportDepth& depth) const {
+        constexpr double kSlight = 0x1p-32;
+        constexpr int kMostMotions = 32;
+        for (int i = 0; i < kMostMotions; ++i) {
+            const Vec3 way = (depth.depth + kSlight) * depth.normal;
+            const SupportDistance found = support_distance(pair_.moved(way), {});
+            if (found.meet || !(found.distance > 0))
+                return;
+            const DifferencePoint points = found.simplex.nearest();
+            depth.point_a = points.a, depth.point_b = points.b - way;
+            const Vec3 normal = (1 / length(points.at)) * points.at;
+            const double shorter = dot(pair_.farthest(-normal).at, -normal);
+            if (found.distance - kSlight <= pair_.rounding() || !(shorter < depth.depth))
+                return;
+            depth.depth = shorter, depth.normal = normal;
+        }
     }
 
     [[nodiscard]] SupportDepth result(const RefinedGap& gap) const {

@@ -109,12 +109,12 @@ SupportGap to_world(const SupportPair& pair, const CoreGap& core, const Vec3& or
 }
 
 SupportGap ordered_gap(const SupportShape& a, const SupportShape& b, double upper_bound,
-                       SupportDepths depths, bool only_sign) {
+                       SupportDepths depths) {
     const auto search_of = [&](const SupportPair& pair) {
         const double certain = kCertainRoundings * pair.rounding();
         SupportSearch search;
         search.apart = pair.factor() * std::max(upper_bound, 0.0) + pair.radii() + certain;
-        search.near = only_sign ? pair.radii() - certain : -kNever;
+        search.near = -kNever;
         return search;
     };
     if (const std::optional<ParallelAxes> axes = parallel_axes(a, b)) {
@@ -131,15 +131,14 @@ SupportGap ordered_gap(const SupportShape& a, const SupportShape& b, double uppe
 
 /// The gap in either order of the shapes.
 SupportGap gap_of(const SupportShape& a, const SupportShape& b, double upper_bound,
-                  SupportDepths depths, bool only_sign, Vec3& direction) {
+                  SupportDepths depths, Vec3& direction) {
     if (direction != Vec3{}) {
         const double apart = separation_along(a, b, direction);
         if (apart > std::max(upper_bound, 0.0))
             return {apart, {}, {}, direction, true};
     }
-    const SupportGap gap = comes_after(a, b)
-                               ? turned_round(ordered_gap(b, a, upper_bound, depths, only_sign))
-                               : ordered_gap(a, b, upper_bound, depths, only_sign);
+    const SupportGap gap = comes_after(a, b) ? turned_round(ordered_gap(b, a, upper_bound, depths))
+                                             : ordered_gap(a, b, upper_bound, depths);
     if (gap.normal != Vec3{})
         direction = gap.normal;
     return gap;
@@ -149,11 +148,19 @@ SupportGap gap_of(const SupportShape& a, const SupportShape& b, double upper_bou
 
 SupportGap support_gap(const SupportShape& a, const SupportShape& b, double upper_bound,
                        SupportDepths depths, Vec3& direction) {
-    return gap_of(a, b, upper_bound, depths, false, direction);
+    return gap_of(a, b, upper_bound, depths, direction);
 }
 
-bool supports_meet(const SupportShape& a, const SupportShape& b, Vec3& direction) {
-    return gap_of(a, b, 0, SupportDepths::no, true, direction).distance <= 0;
+Vec3 common_point(const SupportShape& a, const SupportShape& b) {
+    const SupportPair pair(a, b);
+    const DifferencePoint points = support_distance(pair, {}).simplex.nearest();
+    const Vec3 way = points.b - points.a;
+    const double distance = length(way);
+    // Within the radius of a from the one point, and within that of b from the other.
+    const double along =
+        std::clamp(0.5 * (distance + pair.a().radius - pair.b().radius), 0.0, distance);
+    const Vec3 at = distance > 0 ? points.a + (along / distance) * way : points.a;
+    return a.centre + (1 / pair.factor()) * at;
 }
 
 double separation_along(const SupportShape& a, const SupportShape& b, const Vec3& normal) {

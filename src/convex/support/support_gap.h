@@ -41,9 +41,8 @@ enum class SupportDepths : std::uint8_t {
 SupportGap support_gap(const SupportShape& a, const SupportShape& b, double upper_bound,
                        SupportDepths depths, Vec3& direction);
 
-/// Whether two shapes share a point, to rounding: whether support_gap is at most 0. `direction` as
-/// above.
-bool supports_meet(const SupportShape& a, const SupportShape& b, Vec3& direction);
+/// A point that two shapes share, to rounding. For shapes that are apart, a point between them.
+Vec3 common_point(const SupportShape& a, const SupportShape& b);
 
 /// A lower bound of the gap between two shapes along a unit vector from a to b. Rounding is taken
 /// off. Negative: the planes across the vector do not separate the shapes.

@@ -33,6 +33,12 @@ public:
         const Vec3 a = abut::farthest(a_, -direction), b = abut::farthest(b_, direction) + offset_;
         return {b - a, a, b};
     }
+    /// The pair after b has moved by a vector of the pair's frame.
+    [[nodiscard]] SupportPair moved(const Vec3& by) const {
+        SupportPair pair = *this;
+        pair.offset_ = pair.offset_ + by;
+        return pair;
+    }
     /// The shapes in the pair's frame, of which only the cores are meant, with the largest radii.
     [[nodiscard]] const SupportShape& a() const { return a_; }
     [[nodiscard]] const SupportShape& b() const { return b_; }

@@ -3,10 +3,12 @@
 #include <abut/penetration.h>
 
 #include "core/arguments.h"
+#include "geometry/triangle_triangle_distance.h"
 #include "rigid/manifold/meeting_regions.h"
 #include "rigid/manifold/region_frame.h"
 #include "rigid/manifold/region_names.h"
 #include "rigid/manifold/region_points.h"
+#include "rigid/manifold/surface_manifolds.h"
 #include "rigid/manifold/triangle_meeting.h"
 #include "rigid/pair/separating_plane.h"
 #include "rigid/solid/containment.h"
@@ -227,11 +229,32 @@ bool any_meets(const std::vector<Contact>& pairs) {
                        [](const Contact& c) { return c.kind != TriangleContact::none; });
 }
 
-} // namespace
+/// The manifold of the nearest pair of triangles. A solid inside the other looks at the back of its
+/// faces, which have no region in common with it.
+ModelManifold manifold_of_nearest(const PlacedPair& pair, const std::vector<Contact>& pairs) {
+    ClosestPoints nearest;
+    for (const Contact& each : pairs) {
+        const ClosestPoints points =
+            triangle_triangle_distance(pair.triangle_a(each.pair.a), pair.triangle_b(each.pair.b));
+        if (&each == pairs.data() || points.distance_sq < nearest.distance_sq)
+            nearest = points;
+    }
+    ModelManifold m;
+    m.normal = normalized_or_zero(nearest.b - nearest.a);
+    if (m.normal == Vec3{})
+        m.normal = {0, 0, 1};
+    m.count = 1;
+    m.points[0] = {nearest.a, nearest.b, -std::sqrt(nearest.distance_sq), point_name::kMiddle};
+    m.status = Status::bound_only;
+    return m;
+}
 
-std::vector<ModelManifold> contact_manifolds(const Model& a, const Transform& world_from_a,
-                                             const Model& b, const Transform& world_from_b,
-                                             const ManifoldOptions& options) {
+/// What counts as contact of a solid inside the other, whose surfaces share no point.
+enum class Inside : std::uint8_t { apart, in_contact };
+
+std::vector<ModelManifold> manifolds_of(const Model& a, const Transform& world_from_a,
+                                        const Model& b, const Transform& world_from_b,
+                                        const ManifoldOptions& options, Inside inside) {
     require_not_negative(options.margin, "margin");
     require(std::isfinite(options.margin), "margin must be finite");
     const StopScope stopping(options.progress);
@@ -240,16 +263,33 @@ std::vector<ModelManifold> contact_manifolds(const Model& a, const Transform& wo
     const PlacedPair pair(a, world_from_a, b, world_from_b);
     if (pair.world_from_a() != world_from_a || pair.world_from_b() != world_from_b)
         // A transform was flattened: the pair holds copies of the meshes in world coordinates.
-        return contact_manifolds(Model(pair.a().mesh()), {}, Model(pair.b().mesh()), {}, options);
+        return manifolds_of(Model(pair.a().mesh()), {}, Model(pair.b().mesh()), {}, options,
+                            inside);
     const std::vector<Contact> pairs = meeting_pairs(pair, options.margin);
     std::vector<ModelManifold> manifolds;
-    if (!any_meets(pairs))
+    if (inside == Inside::in_contact && !any_meets(pairs))
         manifolds = contained_manifold(a, world_from_a, b, world_from_b);
     if (manifolds.empty() && !pairs.empty())
         manifolds =
             ManifoldFinder(pair, a, b, pair.triangle_a(pairs[0].pair.a)[0], options).find(pairs);
+    if (manifolds.empty() && !pairs.empty() && inside == Inside::apart)
+        manifolds.push_back(manifold_of_nearest(pair, pairs));
     name_regions(manifolds, options.last);
     return manifolds;
+}
+
+} // namespace
+
+std::vector<ModelManifold> contact_manifolds(const Model& a, const Transform& world_from_a,
+                                             const Model& b, const Transform& world_from_b,
+                                             const ManifoldOptions& options) {
+    return manifolds_of(a, world_from_a, b, world_from_b, options, Inside::in_contact);
+}
+
+std::vector<ModelManifold> surface_manifolds(const Model& a, const Transform& world_from_a,
+                                             const Model& b, const Transform& world_from_b,
+                                             const ManifoldOptions& options) {
+    return manifolds_of(a, world_from_a, b, world_from_b, options, Inside::apart);
 }
 
 } // namespace abut

@@ -22,7 +22,7 @@ LocalPenetration deepest_crossing(const WorldSolid& a, const WorldSolid& b,
         const TriangleSeparation s = triangle_triangle_penetration(ta, tb);
         if (s.depth > best.depth) {
             const ClosestPoints common = triangle_triangle_distance(ta, tb);
-            best = {s.depth, s.depth, 0, common.a, common.b, s.direction, c.pair};
+            best = {s.depth, s.depth, 0, false, common.a, common.b, s.direction, c.pair};
         }
     }
     return best;
@@ -84,16 +84,26 @@ LocalPenetration deepest_inside(const WorldSolid& a, const WorldSolid& b,
     if (b.bounds_solid()) {
         const DeepestPoint p =
             deepest_of(a, b, some_triangles(contacts, &TrianglePair::a), part_a, options, 0);
-        best = {p.depth,      p.at_most,  0,
-                p.on_surface, p.on_solid, normalized_or_zero(p.on_surface - p.on_solid)};
+        best = {p.depth,
+                p.at_most,
+                0,
+                true,
+                p.on_surface,
+                p.on_solid,
+                normalized_or_zero(p.on_surface - p.on_solid)};
         best.triangles = {p.surface_triangle, p.solid_triangle};
     }
     if (a.bounds_solid()) {
         const DeepestPoint p = deepest_of(b, a, some_triangles(contacts, &TrianglePair::b), part_b,
                                           options, best.depth);
         if (p.depth > best.depth) {
-            best = {p.depth,    best.at_most, 0,
-                    p.on_solid, p.on_surface, normalized_or_zero(p.on_solid - p.on_surface)};
+            best = {p.depth,
+                    best.at_most,
+                    0,
+                    true,
+                    p.on_solid,
+                    p.on_surface,
+                    normalized_or_zero(p.on_solid - p.on_surface)};
             best.triangles = {p.solid_triangle, p.surface_triangle};
         }
         best.at_most = std::max(best.at_most, p.at_most);

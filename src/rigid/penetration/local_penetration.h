@@ -14,6 +14,9 @@ struct LocalPenetration {
     double at_most = 0; ///< upper bound of the depth, to rounding
     /// at_most + rounding is proven. 0 if `at_most` is a length but no bound.
     double rounding = 0;
+    /// The depth of a point in a solid. Else, between open shells and for locked models, the depth is
+    /// only a bound of the length of the shortest separating motion.
+    bool is_in_solid = false;
     Vec3 point_a, point_b;
     Vec3 direction; ///< unit vector along which b leaves a at point_a; zero if the depth is
     TrianglePair triangles{}; ///< the triangles that hold the points

@@ -56,6 +56,9 @@ public:
             set_locked(result);
         else if (ran_out || result.depth_at_most > result.depth + 2 * rounding_)
             result.status = Status::bound_only;
+        // A motion of another length may separate open shells, and locked models.
+        if (locked_ || (result.depth > 0 && !a_.bounds_solid() && !b_.bounds_solid()))
+            result.status = Status::bound_only;
         return result;
     }
 

@@ -1,10 +1,9 @@
 #include "world/contacts/body_contacts.h"
 
-#include <abut/model_contacts.h>
-
 #include "convex/body/convex_data.h"
 #include "math/transform.h"
 #include "math/vector.h"
+#include "rigid/manifold/surface_manifolds.h"
 #include "world/contacts/solid_contacts.h"
 #include "world/narrow_phase/contact_rounding.h"
 #include "world/narrow_phase/offset_surface.h"
@@ -105,14 +104,15 @@ std::optional<OffsetSurface> triangles_of(const BodyShape& shape) {
     return offset_surface_of(shape);
 }
 
-/// The manifolds of two surfaces, one for each region where they meet.
+/// The manifolds of two surfaces, one for each region where they meet. A surface that lies inside the
+/// other shares no point with it.
 void append_surface_contacts(const OffsetSurface& a, const Transform& world_from_a,
                              const OffsetSurface& b, const Transform& world_from_b, double margin,
                              std::vector<ContactManifold>& manifolds) {
     ManifoldOptions options;
     options.margin = margin;
     for (const ModelManifold& region :
-         contact_manifolds(a.surface, compose(world_from_a, a.body_from_surface), b.surface,
+         surface_manifolds(a.surface, compose(world_from_a, a.body_from_surface), b.surface,
                            compose(world_from_b, b.body_from_surface), options)) {
         ContactManifold& manifold = manifolds.emplace_back();
         manifold.normal = region.normal, manifold.region = region.region;
@@ -146,6 +146,15 @@ bool is_within(const PlacedBody& a, const PlacedBody& b, double margin, PairWarm
     return gap_between(a, b, bound, Depths::no, warm_start).distance <= margin;
 }
 
+/// The largest depth of the manifolds from `first` on.
+double deepest_from(std::size_t first, const std::vector<ContactManifold>& manifolds) {
+    double deepest = -HUGE_VAL;
+    for (std::size_t k = first; k < manifolds.size(); ++k)
+        for (std::uint32_t i = 0; i < manifolds[k].count; ++i)
+            deepest = std::max(deepest, manifolds[k].points[i].depth);
+    return deepest;
+}
+
 /// Removes the manifolds from `first` on if they are nearly the margin apart and other queries say
 /// that the bodies are beyond it. Else no gap exceeds the margin.
 void keep_within_margin(const PlacedBody& a, const PlacedBody& b, double margin,
@@ -155,10 +164,7 @@ void keep_within_margin(const PlacedBody& a, const PlacedBody& b, double margin,
     if (rounding == 0 || manifolds.size() == first)
         return;
     const auto begin = manifolds.begin() + static_cast<std::ptrdiff_t>(first);
-    double deepest = -HUGE_VAL;
-    for (auto each = begin; each != manifolds.end(); ++each)
-        for (std::uint32_t i = 0; i < each->count; ++i)
-            deepest = std::max(deepest, each->points[i].depth);
+    const double deepest = deepest_from(first, manifolds);
     if (deepest <= -margin + 2 * rounding && !is_within(a, b, margin, warm_start)) {
         manifolds.erase(begin, manifolds.end());
         return;
@@ -199,9 +205,15 @@ void append_contacts(const BodiesInContact& bodies, double margin, PairWarmStart
     const std::size_t first = manifolds.size();
     if (is_surface(a.shape) || is_surface(b.shape)) {
         append_kept_contacts(bodies, margin, warm_start, manifolds);
-        // The triangles of a box are rounded, so that they may miss what the box touches.
-        if (manifolds.size() == first && !(is_surface(a.shape) && is_surface(b.shape)))
+        // The triangles of a box are rounded, so that they may miss what the box touches. They also
+        // miss a surface that lies wholly inside a solid, which is in contact.
+        if (!(is_surface(a.shape) && is_surface(b.shape)) &&
+            (manifolds.size() == first ||
+             (deepest_from(first, manifolds) < 0 && touch(a, b, warm_start)))) {
+            manifolds.erase(manifolds.begin() + static_cast<std::ptrdiff_t>(first),
+                            manifolds.end());
             append_one_point(a, b, margin, warm_start, manifolds);
+        }
     } else if (!has_faces(a.shape) || !has_faces(b.shape)) {
         append_one_point(a, b, margin, warm_start, manifolds);
     } else if (solid_contact(a, b, margin, warm_start, manifolds.emplace_back())) {

@@ -4,7 +4,6 @@
 #include "geometry/triangle_triangle_distance.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace abut {
@@ -76,48 +75,11 @@ bool is_segment(const RoundedBox& box) {
     return std::count(box.half.begin(), box.half.end(), 0.0) == 2;
 }
 
-/// The gap of a box and a ball, whose centre is b's. The normal points to the ball.
-SolidGap ball_gap(const RoundedBox& box, const RoundedBox& ball) {
-    const Vec3 way = ball.centre - box.centre;
-    Vec3 nearest; // relative to the box's centre
-    std::size_t least = 0;
-    std::array<double, 3> along{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        along[k] = dot(way, box.axis[k]);
-        nearest = nearest + std::clamp(along[k], -box.half[k], box.half[k]) * box.axis[k];
-        if (box.half[k] - std::abs(along[k]) < box.half[least] - std::abs(along[least]))
-            least = k;
-    }
-    const double distance = length(way - nearest);
-    SolidGap gap;
-    gap.distance = distance, gap.normal = (1 / distance) * (way - nearest);
-    if (!(box.half[least] - std::abs(along[least]) < 0 && distance > 0)) {
-        // The centre lies in the box: the way out is through the nearest face.
-        gap.normal = along[least] < 0 ? -box.axis[least] : box.axis[least];
-        gap.distance = std::abs(along[least]) - box.half[least];
-        nearest = way - gap.distance * gap.normal;
-    }
-    gap.point_a = box.centre + (nearest + box.radius * gap.normal);
-    gap.point_b = ball.centre - ball.radius * gap.normal;
-    gap.distance -= box.radius + ball.radius;
-    return gap;
-}
-
-SolidGap turned_round(const SolidGap& gap) {
-    return {gap.distance, gap.point_b, gap.point_a, -gap.normal};
-}
-
-/// The gap along the direction of the distance or of the shortest separating motion.
-SolidGap gap_of(const RoundedBox& a, const RoundedBox& b, double upper_bound) {
-    if (has_no_extent(a) != has_no_extent(b))
-        return has_no_extent(b) ? ball_gap(a, b) : turned_round(ball_gap(b, a));
-    return rounded_box_distance(a, b, upper_bound);
-}
-
-/// The contact along that direction.
+/// The contact along the direction of the distance or of the shortest separating motion.
 bool contact_by_distance(const RoundedBox& a, const RoundedBox& b, const ContactLimits& limits,
                          ContactManifold& manifold) {
-    const SolidGap gap = gap_of(a, b, std::nextafter(limits.margin + limits.rounding, HUGE_VAL));
+    const SolidGap gap =
+        rounded_box_distance(a, b, std::nextafter(limits.margin + limits.rounding, HUGE_VAL));
     if (gap.distance > limits.margin)
         return false;
     const ContactFrame frame(a.centre, gap.normal);

@@ -1,6 +1,8 @@
 #include "world/narrow_phase/convex_gap.h"
 
 #include "convex/body/convex_data.h"
+#include "convex/hull/climb.h"
+#include "geometry/supporting_normal.h"
 #include "math/transform.h"
 
 #include <algorithm>
@@ -48,6 +50,23 @@ Vec3 direction_of_touching(const Convex& a, const Transform& world_from_a, const
     return depth.meet && depth.depth > 0 && is_along ? depth.direction : normalized_or_zero(way);
 }
 
+/// Turns a direction between the closest points of two solids so that it is across the edges and
+/// faces that these lie on, to rounding.
+Vec3 across_features(const Convex& a, const Transform& world_from_a, const Convex& b,
+                     const Transform& world_from_b, const ConvexGap& gap, const Vec3& direction,
+                     double rounding) {
+    const PolytopePair pair(a.data().levels[0].polytope, world_from_a, b.data().levels[0].polytope,
+                            world_from_b);
+    const auto& m = world_from_a.m;
+    const Vec3 origin{m[9], m[10], m[11]}, on_a = gap.point_a - origin, on_b = gap.point_b - origin;
+    const auto highest = [](const PlacedPolytope& side, const Vec3& n) {
+        return side.vertex(farthest(*side.polytope, side.pulled_back(n)));
+    };
+    return supporting_normal(
+        direction, rounding, [&](const Vec3& n) { return highest(pair.a, n) - on_a; },
+        [&](const Vec3& n) { return on_b - highest(pair.b, -n); });
+}
+
 } // namespace
 
 BodyGap convex_gap(const Convex& a, const Transform& world_from_a, const Convex& b,
@@ -61,9 +80,13 @@ BodyGap convex_gap(const Convex& a, const Transform& world_from_a, const Convex&
     result.normal = normalized_or_zero(gap.point_b - gap.point_a);
     const double size = sum_of_sizes(gap.point_a) + a.data().reach + b.data().reach;
     if (gap.distance > 0) {
+        const double rounding = kWayRounding * size;
         if (gap.distance <= kClearOfTouching * size)
             result.normal = direction_of_touching(a, world_from_a, b, world_from_b,
-                                                  gap.point_b - gap.point_a, kWayRounding * size);
+                                                  gap.point_b - gap.point_a, rounding);
+        if (gap.distance <= kTellsDirection * size)
+            result.normal =
+                across_features(a, world_from_a, b, world_from_b, gap, result.normal, rounding);
         return result;
     }
     const ConvexDepth depth =

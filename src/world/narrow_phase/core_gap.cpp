@@ -2,6 +2,7 @@
 
 #include <abut/shape_queries.h>
 
+#include "geometry/supporting_normal.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "geometry/triangle_triangle_penetration.h"
 #include "math/transform.h"
@@ -25,7 +26,7 @@ constexpr double kCoreRounding = 0x1p-48;
 /// the coordinates: it is rounded by 2^-28 of its length then. The normal of the face always does.
 constexpr double kClearOfFace = 0x1p-20;
 /// As above for an edge or a vertex, from which there are many directions.
-constexpr double kClearOfEdge = 0x1p-36;
+constexpr double kClearOfEdge = 0x1p-44;
 
 /// The place on a model's surface that is nearest to a core.
 struct NearestPlace {
@@ -50,6 +51,15 @@ public:
     }
     [[nodiscard]] Triangle world_triangle(std::uint32_t triangle) const {
         return model_.data().world_triangle(triangle, world_);
+    }
+    /// The corners of the triangles within a radius of a point.
+    [[nodiscard]] std::vector<Vec3> corners_around(const Vec3& point, double radius) const {
+        std::vector<Vec3> corners;
+        for (const std::uint32_t triangle :
+             overlapping_triangles(model_, world_, Sphere{point, radius}))
+            for (const Vec3& corner : world_triangle(triangle))
+                corners.push_back(corner);
+        return corners;
     }
     /// The unit normal of a triangle, out of a solid; zero if the triangle has no area.
     [[nodiscard]] Vec3 outward_normal(std::uint32_t triangle) const {
@@ -77,6 +87,34 @@ double size_at(const SurfaceOrSolid& body, const NearestPlace& place) {
     return size;
 }
 
+/// The direction from the nearest place on the surface to the core, across the edges and faces that
+/// the place lies on: near it, no point of the surface is nearer to the core.
+///
+/// In          axis: as way_out.
+Vec3 way_to_core(const SurfaceOrSolid& body, const NearestPlace& place, const Vec3& axis,
+                 double size) {
+    const Vec3 way = place.on_core - place.on_surface;
+    const double rounding = kCoreRounding * size;
+    if (length(way) > kTellsDirection * size)
+        return normalized_or_zero(way);
+    const double tilt = 8 * rounding / length(way);
+    const Vec3 start = normalized_or_zero(way);
+    std::vector<Vec3> reaches;
+    for (const Vec3& corner : body.corners_around(place.on_surface, 4 * length(way)))
+        // What rises more is no rounding: another part of the surface, on the core's side.
+        if (const Vec3 from = corner - place.on_surface; dot(from, start) <= tilt * length(from))
+            reaches.push_back(from);
+    const auto beyond_place = [&](const Vec3& n) {
+        Vec3 beyond;
+        for (const Vec3& from : reaches)
+            if (dot(from, n) > dot(beyond, n))
+                beyond = from;
+        return beyond;
+    };
+    const auto before_core = [&](const Vec3& n) { return dot(axis, n) < 0 ? -axis : axis; };
+    return supporting_normal(way, rounding, beyond_place, before_core);
+}
+
 /// The unit vector along which a core leaves the surface at its nearest place.
 ///
 /// In          axis: of a capsule whose inside is nearest; else zero. The direction is across it.
@@ -84,8 +122,10 @@ double size_at(const SurfaceOrSolid& body, const NearestPlace& place) {
 Vec3 way_out(const SurfaceOrSolid& body, const NearestPlace& place, const Vec3& axis, bool inside) {
     const Vec3 way = place.on_core - place.on_surface, outward = inside ? -way : way;
     const double distance = length(way), size = size_at(body, place);
-    if (distance > (place.in_face ? kClearOfFace : kClearOfEdge) * size)
-        return normalized_or_zero(outward);
+    if (distance > (place.in_face ? kClearOfFace : kClearOfEdge) * size) {
+        const Vec3 to_core = way_to_core(body, place, axis, size);
+        return inside ? -to_core : to_core;
+    }
     Vec3 normal = body.outward_normal(place.triangle);
     const Vec3 along = normalized_or_zero(axis);
     if (along != Vec3{} && normal != Vec3{}) {

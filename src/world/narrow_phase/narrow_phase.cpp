@@ -102,7 +102,12 @@ BodyGap measure_models(const Model& a, const Transform& world_from_a, const Mode
     options.upper_bound = std::max(upper_bound, 0.0);
     options.signed_distance = depths == Depths::yes;
     options.warm_start = &warm_start.surfaces;
-    return from_rigid(distance(a, world_from_a, b, world_from_b, options));
+    BodyGap gap = from_rigid(distance(a, world_from_a, b, world_from_b, options));
+    // The depth of a point in a solid is a bound of the length of a separating motion, however
+    // exact it is.
+    if (gap.distance < 0)
+        gap.status = Status::bound_only;
+    return gap;
 }
 
 /// Subtracts a radius around b's core, which is a point, a segment or a box.
@@ -276,9 +281,6 @@ bool meet(const Placed<Solid>& a, const PlacedCurved& b, PairWarmStart& warm_sta
         last = direction;
     return gap.distance <= touching;
 }
-/// Far more than the rounding of a gap of curved shapes, relative to their size.
-constexpr double kTouchRounding = 0x1p-40;
-
 /// The direction from which to search. A depth is searched for from scratch: where several motions
 /// are equally short, the one that is found must not depend on earlier queries.
 Vec3& first_direction(Depths depths, PairWarmStart& warm_start, Vec3& none) {
@@ -293,18 +295,7 @@ BodyGap measure(const Placed<Solid>& a, const PlacedCurved& b, double upper_boun
                 PairWarmStart& warm_start) {
     const SupportShape solid_a = support_of(a), solid_b = support_of(b);
     Vec3 none;
-    BodyGap gap =
-        solid_gap(solid_a, solid_b, upper_bound, first_direction(depths, warm_start, none));
-    // Where rounding decides whether they touch, `collide` decides.
-    const double size = solid_a.reach + solid_a.radius + solid_b.reach + solid_b.radius +
-                        max_abs(solid_b.centre - solid_a.centre);
-    if (depths == Depths::yes && std::abs(gap.distance) <= kTouchRounding * size) {
-        none = {};
-        gap.distance = supports_meet(solid_a, solid_b, none)
-                           ? std::min(gap.distance, 0.0)
-                           : std::max(gap.distance, std::numeric_limits<double>::min());
-    }
-    return gap;
+    return solid_gap(solid_a, solid_b, upper_bound, first_direction(depths, warm_start, none));
 }
 
 /// A half-space with anything.
@@ -436,7 +427,7 @@ BodyGap signed_gap_between(const PlacedBody& a, const PlacedBody& b, double uppe
     PairWarmStart none;
     if (touch(a, b, none))
         return gap_between(a, b, HUGE_VAL, Depths::yes, warm_start);
-    // A gap that rounding hides is still a gap.
+    // A gap that rounding hides is still a gap: the surfaces share no point, by exact arithmetic.
     gap.distance = std::max(gap.distance, std::numeric_limits<double>::min());
     return gap;
 }

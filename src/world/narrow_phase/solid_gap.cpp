@@ -72,6 +72,10 @@ private:
             return;
         best_ = gap_of(gap);
         best_.triangle_a = number;
+        // The points are those of a motion that separates, the depth is a lower bound: the point as
+        // deep as that below the triangle's is in the solid too.
+        if (gap.distance < 0 && !gap.bounds_agree)
+            best_.point_b = best_.point_a + best_.distance * best_.normal;
     }
 
     const PlacedModel& model_;

@@ -7,6 +7,7 @@
 #include "world/narrow_phase/narrow_phase.h"
 #include "world/narrow_phase/solid_gap.h"
 #include "world/schedule/deforming_impact.h"
+#include "world/schedule/shared_point.h"
 
 #include <algorithm>
 #include <cmath>
@@ -175,6 +176,12 @@ private:
         Impact impact;
         impact.meet = true, impact.time = time, impact.gap = std::max(gap.distance, 0.0);
         impact.point_a = gap.point_a, impact.point_b = gap.point_b, impact.normal = gap.normal;
+        if (time == 0 && gap.distance <= 0) {
+            impact.normal = {};
+            const Transform world_a = at(a_.motion, 0), world_b = at(b_.motion, 0);
+            impact.point_a = impact.point_b =
+                shared_point({a_.shape, world_a}, {b_.shape, world_b}, gap);
+        }
         impact.triangle_a = gap.triangle_a, impact.triangle_b = gap.triangle_b;
         impact.contact_time = contact;
         impact.status = contact > 1                      ? Status::bound_only
