@@ -42,7 +42,7 @@ std::vector<DeformableOptions> all_options() {
 TEST(Deformable, EveryPairAgainstExactArithmetic) {
     Random random(2008);
     std::size_t cases = 0, hits = 0, by_oracle = 0;
-    while (cases < std::size_t(many(1'000'000))) {
+    while (cases < std::size_t(many(400'000))) {
         const MovingMesh moving = any_soup(random);
         const Impacts impacts = self_impacts(moving.deformable());
         auto next = impacts.list.begin();
