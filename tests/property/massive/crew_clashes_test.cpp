@@ -8,7 +8,7 @@
 
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
-#include "tests/support/stored_job.h"
+#include "tests/support/store/stored_job.h"
 #include "tests/support/thread_crew.h"
 
 #include <atomic>

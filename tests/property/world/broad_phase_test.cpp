@@ -209,7 +209,7 @@ TEST(BroadPhase, ManyBoxesHaveTheSamePairsForEveryMethodAndAnyThreads) {
     Random random(5006);
     for (BoxSceneKind kind : kBoxSceneKinds) {
         SCOPED_TRACE(kind.name);
-        kind.hubs *= 0.05; // among many boxes few are hubs
+        kind.hubs *= 0.05;                     // among many boxes few are hubs
         BoxScript script(random, kind, 17000); // above AutomaticSearch::kMostBoxes, 16,384
         BroadPhase tree({BroadPhaseMethod::tree, {}}), sweep({BroadPhaseMethod::sweep, {}}),
             automatic;
