@@ -471,7 +471,7 @@ TEST(Levels, AreContinued) {
 
 TEST(Levels, AreReusedAfterAChange) {
     const Folder folder;
-    Scene scene = plant_scene(reduced_for_threads(200'000U, 60'000U), true);
+    Scene scene = plant_scene(60'000U, true);
     const std::string store = store_of(scene, folder);
     const LevelReport first = build_levels(store);
     const std::string model = folder / "a.glb";
