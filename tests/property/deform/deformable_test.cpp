@@ -12,6 +12,7 @@
 #include "tests/support/oracle/ccd_oracle.h"
 #include "tests/support/oracle/thickness_oracle.h"
 #include "tests/support/rounds.h"
+#include "tests/support/sanitizer.h"
 #include "tests/support/simd_targets.h"
 
 #include <gtest/gtest.h>
@@ -123,7 +124,7 @@ TEST(Deformable, TwoSurfacesEqualSingleTests) {
 TEST(Deformable, AllSchemesAgreeOnLargerSurfaces) {
     Random random(11);
     std::size_t hits = 0;
-    for (int round = 0; round < many(4); ++round) {
+    for (int round = 0; round < many(reduced_for_threads(4, 1)); ++round) {
         const MovingMesh moving = crumpled_sheet(random, 40);
         const Impacts truth = self_impacts(moving.deformable({.scheme = Scheme::basic}));
         hits += truth.list.size();
