@@ -14,7 +14,8 @@ if(ABUT_WERROR)
 endif()
 if(ABUT_SANITIZE)
     # -g1 tells functions and lines, which is what reports show; compiling with -g takes 1.7 times as long.
-    target_compile_options(abut_compile INTERFACE -O1 -g1 -fsanitize=${ABUT_SANITIZE}
+    # Tests, whose targets have the property ABUT_TEST, compile in two thirds of the time with -Og.
+    target_compile_options(abut_compile INTERFACE $<IF:$<BOOL:$<TARGET_PROPERTY:ABUT_TEST>>,-Og,-O1> -g1 -fsanitize=${ABUT_SANITIZE}
                            -fno-sanitize-recover=all -fno-omit-frame-pointer)
     if(ABUT_SANITIZE MATCHES "address.*undefined")
         # A wrong pointer is reported by the address sanitizer when it is used. x86 reads what is not aligned.

@@ -74,7 +74,7 @@ function(read_debian out_text out_from package)
     set(${out_from} "${from}" PARENT_SCOPE)
 endfunction()
 
-# The same of a folder that npm has filled.
+# Returns the licence of an npm package, and its name, version and source. Both are empty if the folder is not there.
 function(read_npm out_text out_from folder)
     set(text "")
     set(from "")

@@ -21,7 +21,7 @@ constexpr int kPlateCells = 64; ///< along a side: 8,192 triangles
 constexpr double kRoughness = 1e-4;
 /// A round of ours repeats the query until it has taken this long.
 constexpr double kLeastSeconds = 0.01;
-/// Of the peer, whose rough plates take seconds far apart, each volume gets this long.
+/// Seconds that the peer gets for each of its bounding volumes: rough plates far apart take it long.
 constexpr double kMostSeconds = 2;
 
 /// A plate of 2 m by 2 m.

@@ -204,7 +204,7 @@ def test_meshes_that_are_not_convex():
     meet, names, contacts = manager.in_collision_single(beam, return_names=True, return_data=True)
     assert meet and names == {"beam"} and len(contacts) > 0
     assert manager.min_distance_single(beam) < -0.9
-    # Also one of several parts. A mesh of two parts is no convex solid.
+    # One mesh may have several parts. A mesh of two parts is no convex solid.
     (v, f), (w, g) = box((0.1, 0.1, 0.1)), box((0.1, 0.1, 0.1))
     two = abut.Mesh(np.concatenate([v + 9, w + 0.2]), np.concatenate([f, g + len(v)]))
     assert manager.in_collision_single(two) and manager.min_distance_single(two) < 0

@@ -3,9 +3,9 @@
 #include <abut/bcf.h>
 
 #include "bcf/archive.h"
+#include "tests/support/clash/random_bcf.h"
 #include "tests/support/folder.h"
 #include "tests/support/paths.h"
-#include "tests/support/random_bcf.h"
 
 #include <algorithm>
 #include <array>

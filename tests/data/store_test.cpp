@@ -4,7 +4,7 @@
 
 #include "tests/support/folder.h"
 #include "tests/support/paths.h"
-#include "tests/support/stores.h"
+#include "tests/support/store/stores.h"
 
 #include <algorithm>
 #include <filesystem>

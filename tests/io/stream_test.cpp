@@ -7,7 +7,7 @@
 #include "tests/io/support.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
-#include "tests/support/stores.h"
+#include "tests/support/store/stores.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "io/scene/scene_source.h"
 #include "store/import/mesh_draft.h"
-#include "tests/support/stores.h"
+#include "tests/support/store/stores.h"
 
 #include <gtest/gtest.h>
 

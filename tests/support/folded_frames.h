@@ -13,7 +13,7 @@
 /// the repository does not have.
 namespace abut::test {
 
-/// How the positions of the frames are written.
+/// The numbers in which the frames' positions are written.
 enum class FrameNumbers : std::uint8_t {
     lattice, ///< multiples of 1/32, so that features often meet exactly at an edge or a vertex
     floats,  ///< multiples of 2^-22; some vertices end on a face or an edge, or miss it by rounding

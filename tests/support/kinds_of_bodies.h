@@ -64,8 +64,8 @@ inline double from_polygon(const std::vector<std::array<double, 2>>& corners, do
     return inside <= 0 ? inside : std::sqrt(outside_sq);
 }
 
-/// How far a point of the shape's frame is from the surface: negative inside. Near the surface of an
-/// ellipsoid to first order. The size of the number matters only near the surface.
+/// The distance of a point of the shape's frame from its surface, negative inside solids that are no
+/// models. Exact near the surface only, and for an ellipsoid to first order.
 struct DistanceFromSurface {
     Vec3 p;
 
@@ -127,7 +127,7 @@ struct DistanceFromSurface {
     }
 };
 
-/// How far a point of the world is from the surface of a body.
+/// DistanceFromSurface of a point of the world.
 inline double distance_from_surface(const AnyShape& shape, const Pose& pose, const Vec3& p) {
     const Transform world = pose;
     const auto& m = world.m;

@@ -1,26 +1,21 @@
 #include "store/database/hierarchy_table.h"
 
+#include "store/database/optional_table.h"
 #include "store/database/row_hash.h"
 #include "tree/outline.h"
 
 #include <span>
-#include <string_view>
 
 namespace abut {
 
 namespace {
 
-constexpr std::string_view kTable = R"(CREATE TABLE hierarchy(
+constexpr OptionalTable kHierarchyTable{"hierarchy", R"(CREATE TABLE hierarchy(
   block INTEGER PRIMARY KEY,
   block_checksum INTEGER NOT NULL,
   format INTEGER NOT NULL,
   checksum INTEGER NOT NULL,
-  data BLOB NOT NULL))";
-
-/// True also for a foreign table of that name.
-bool has_table_of_the_name(Database& database) {
-    return database.number("SELECT count(*) FROM sqlite_schema WHERE name = 'hierarchy'") > 0;
-}
+  data BLOB NOT NULL))"};
 
 } // namespace
 
@@ -34,18 +29,13 @@ std::uint64_t HierarchyRow::checksum() const {
 }
 
 bool has_hierarchies(Database& database) {
-    // Compares the table's definition, whose text SQLite stores unchanged.
-    Statement find(database, "SELECT sql = ? FROM sqlite_schema WHERE name = 'hierarchy'");
-    find.bind(kTable);
-    return find.step() && find.integer(0) != 0;
+    return kHierarchyTable.exists(database);
 }
 
 void keep_hierarchies(Database& database, const std::vector<HierarchyRow>& rows) {
     if (rows.empty())
         return;
-    if (!has_table_of_the_name(database))
-        Statement(database, kTable).run();
-    if (!has_hierarchies(database))
+    if (!kHierarchyTable.create(database))
         return;
     // INSERT OR REPLACE is not used: SQLite keeps a statement journal for each one.
     Statement remove(database, "DELETE FROM hierarchy WHERE block = ?");

@@ -2,11 +2,11 @@
 
 #include <abut/error.h>
 
+#include "store/database/optional_table.h"
 #include "store/database/row_hash.h"
 
 #include <algorithm>
 #include <cstring>
-#include <string_view>
 
 namespace abut {
 
@@ -15,7 +15,7 @@ namespace {
 /// Bytes of the tree in one row.
 constexpr std::size_t kPieceBytes = std::size_t{16} << 20;
 
-constexpr std::string_view kChunkTable = R"(CREATE TABLE level_chunk(
+constexpr OptionalTable kChunkTable{"level_chunk", R"(CREATE TABLE level_chunk(
   chunk INTEGER PRIMARY KEY AUTOINCREMENT,
   key BLOB NOT NULL UNIQUE,
   vertices INTEGER NOT NULL,
@@ -26,25 +26,18 @@ constexpr std::string_view kChunkTable = R"(CREATE TABLE level_chunk(
   bytes INTEGER NOT NULL,
   data_checksum INTEGER NOT NULL,
   checksum INTEGER NOT NULL,
-  data BLOB NOT NULL))";
+  data BLOB NOT NULL))"};
 
-constexpr std::string_view kTreeTable = R"(CREATE TABLE level_tree(
+constexpr OptionalTable kTreeTable{"level_tree", R"(CREATE TABLE level_tree(
   piece INTEGER PRIMARY KEY,
   pieces INTEGER NOT NULL,
   content BLOB NOT NULL,
   checksum INTEGER NOT NULL,
-  data BLOB NOT NULL))";
+  data BLOB NOT NULL))"};
 
 constexpr const char* kLevelChunkColumns =
     "chunk, key, vertices, triangles, error, x0, y0, z0, x1, y1, z1, bytes, data_checksum, "
     "checksum";
-
-bool has_definition(Database& database, const char* name, std::string_view sql) {
-    // Compares the table's definition, whose text SQLite stores unchanged.
-    Statement find(database, "SELECT sql = ? FROM sqlite_schema WHERE name = ?");
-    find.bind(sql, std::string_view(name));
-    return find.step() && find.integer(0) != 0;
-}
 
 Hash128 hash_in(std::span<const std::byte> bytes) {
     Hash128 hash;
@@ -114,8 +107,7 @@ Hash128 level_content(const std::vector<ModelRow>& models, std::uint32_t format)
 }
 
 bool has_level_tables(Database& database) {
-    return has_definition(database, "level_chunk", kChunkTable) &&
-           has_definition(database, "level_tree", kTreeTable);
+    return kChunkTable.exists(database) && kTreeTable.exists(database);
 }
 
 void create_level_tables(Database& database) {
@@ -125,8 +117,8 @@ void create_level_tables(Database& database) {
                         "WHERE name IN ('level_chunk', 'level_tree')") > 0)
         throw Error(ErrorCode::cannot_write, database.path(),
                     "has other tables named level_chunk or level_tree: levels cannot be stored");
-    Statement(database, kChunkTable).run();
-    Statement(database, kTreeTable).run();
+    Statement(database, kChunkTable.definition).run();
+    Statement(database, kTreeTable.definition).run();
 }
 
 LevelChunks::LevelChunks(Database& database)

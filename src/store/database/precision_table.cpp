@@ -2,29 +2,21 @@
 
 #include <abut/error.h>
 
+#include "store/database/optional_table.h"
 #include "store/database/row_hash.h"
 
 #include <string>
-#include <string_view>
 
 namespace abut {
 
 namespace {
 
-constexpr std::string_view kPrecisionTable = R"(CREATE TABLE model_precision(
+constexpr OptionalTable kPrecisionTable{"model_precision", R"(CREATE TABLE model_precision(
   model INTEGER PRIMARY KEY,
   stated REAL NOT NULL,
   single_meshes INTEGER NOT NULL,
   single_transforms INTEGER NOT NULL,
-  checksum INTEGER NOT NULL))";
-
-/// Whether the table exists, with the definition of this version.
-bool has_precisions(Database& database) {
-    // Compares the table's definition, whose text SQLite stores unchanged.
-    Statement find(database, "SELECT sql = ? FROM sqlite_schema WHERE name = 'model_precision'");
-    find.bind(kPrecisionTable);
-    return find.step() && find.integer(0) != 0;
-}
+  checksum INTEGER NOT NULL))"};
 
 std::uint64_t checksum_of(std::int64_t model, const ModelPrecision& precision) {
     return RowHash()
@@ -38,7 +30,7 @@ std::uint64_t checksum_of(std::int64_t model, const ModelPrecision& precision) {
 } // namespace
 
 ModelPrecision read_precision(Database& database, std::int64_t model) {
-    if (!has_precisions(database))
+    if (!kPrecisionTable.exists(database))
         return {};
     Statement find(database, "SELECT stated, single_meshes, single_transforms, checksum "
                              "FROM model_precision WHERE model = ?");
@@ -54,9 +46,7 @@ ModelPrecision read_precision(Database& database, std::int64_t model) {
 }
 
 void write_precision(Database& database, std::int64_t model, const ModelPrecision& precision) {
-    if (database.number("SELECT count(*) FROM sqlite_schema WHERE name = 'model_precision'") == 0)
-        Statement(database, kPrecisionTable).run();
-    if (!has_precisions(database))
+    if (!kPrecisionTable.create(database))
         return;
     Statement(database, "INSERT OR REPLACE INTO model_precision VALUES (?,?,?,?,?)")
         .bind(model, precision.stated, precision.single_meshes ? 1 : 0,
@@ -65,7 +55,7 @@ void write_precision(Database& database, std::int64_t model, const ModelPrecisio
 }
 
 void remove_lost_precisions(Database& database) {
-    if (has_precisions(database))
+    if (kPrecisionTable.exists(database))
         database.run("DELETE FROM model_precision WHERE model NOT IN (SELECT model FROM model)");
 }
 

@@ -6,9 +6,9 @@
 #include "store/database/sqlite.h"
 #include "tests/command/models.h"
 #include "tests/command/run_command.h"
-#include "tests/support/page_queries.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
+#include "tests/support/store/page_queries.h"
 
 #include <algorithm>
 #include <chrono>

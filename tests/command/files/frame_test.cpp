@@ -2,7 +2,7 @@
 
 #include "tests/command/models.h"
 #include "tests/command/run_command.h"
-#include "tests/support/stores.h"
+#include "tests/support/store/stores.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

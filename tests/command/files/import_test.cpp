@@ -10,7 +10,7 @@
 #include "tests/support/paths.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
-#include "tests/support/stores.h"
+#include "tests/support/store/stores.h"
 
 #include <csignal>
 #include <cstring>

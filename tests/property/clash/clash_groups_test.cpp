@@ -4,7 +4,7 @@
 #include <abut/clash.h>
 #include <abut/clash_groups.h>
 
-#include "tests/support/grouped_clashes.h"
+#include "tests/support/clash/grouped_clashes.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 

@@ -6,10 +6,10 @@
 #include <abut/store_clash.h>
 
 #include "massive/work/stored_parts.h"
-#include "tests/support/changing_site.h"
-#include "tests/support/clash_scenes.h"
+#include "tests/support/clash/clash_scenes.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
+#include "tests/support/store/changing_site.h"
 
 #include <gtest/gtest.h>
 #include <map>

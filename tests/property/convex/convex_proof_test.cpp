@@ -117,7 +117,7 @@ class ThinHulls : public testing::TestWithParam<int> {};
 TEST_P(ThinHulls, AreToldApart) {
     Random random(7300 + static_cast<std::uint64_t>(-GetParam()));
     const double h = std::pow(10, GetParam());
-    const int cases = many(200);
+    const int cases = many(120);
     Counts counts;
     ConvexWarmStart warm_start;
     for (int i = 0; i < cases; ++i) {

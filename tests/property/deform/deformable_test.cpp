@@ -12,6 +12,7 @@
 #include "tests/support/oracle/ccd_oracle.h"
 #include "tests/support/oracle/thickness_oracle.h"
 #include "tests/support/rounds.h"
+#include "tests/support/sanitizer.h"
 #include "tests/support/simd_targets.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +43,7 @@ std::vector<DeformableOptions> all_options() {
 TEST(Deformable, EveryPairAgainstExactArithmetic) {
     Random random(2008);
     std::size_t cases = 0, hits = 0, by_oracle = 0;
-    while (cases < std::size_t(many(1'000'000))) {
+    while (cases < std::size_t(many(400'000))) {
         const MovingMesh moving = any_soup(random);
         const Impacts impacts = self_impacts(moving.deformable());
         auto next = impacts.list.begin();
@@ -123,7 +124,7 @@ TEST(Deformable, TwoSurfacesEqualSingleTests) {
 TEST(Deformable, AllSchemesAgreeOnLargerSurfaces) {
     Random random(11);
     std::size_t hits = 0;
-    for (int round = 0; round < many(4); ++round) {
+    for (int round = 0; round < many(reduced_for_threads(4, 1)); ++round) {
         const MovingMesh moving = crumpled_sheet(random, 40);
         const Impacts truth = self_impacts(moving.deformable({.scheme = Scheme::basic}));
         hits += truth.list.size();

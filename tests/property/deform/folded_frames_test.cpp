@@ -21,7 +21,7 @@ protected:
     Random random_{4211 + static_cast<std::uint64_t>(GetParam())};
     // On the lattice the truth costs less.
     MovingMesh moving_ =
-        folded_sheet(random_, GetParam() == FrameNumbers::lattice ? 15 : 12, GetParam());
+        folded_sheet(random_, GetParam() == FrameNumbers::lattice ? 12 : 9, GetParam());
 };
 
 TEST_P(FoldedFrames, EveryTrueImpactAndNoOther) {

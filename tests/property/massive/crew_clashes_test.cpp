@@ -8,7 +8,8 @@
 
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
-#include "tests/support/stored_job.h"
+#include "tests/support/sanitizer.h"
+#include "tests/support/store/stored_job.h"
 #include "tests/support/thread_crew.h"
 
 #include <atomic>
@@ -53,7 +54,7 @@ StoreClashReport find_together(const std::string& store, const ClashOptions& opt
 TEST(CrewClashes, EqualThoseOfOneProcess) {
     Random random(6201);
     std::size_t clashes = 0, runs = 0, shared = 0;
-    for (int round = 0; round < many(6); ++round) {
+    for (int round = 0; round < many(reduced_for_threads(6, 3)); ++round) {
         const StoredJob job(random);
         clashes += job.truth.clashes.size();
         for (int run = 0; run < 3; ++run) {
@@ -90,7 +91,7 @@ TEST(CrewClashes, EqualThoseOfOneProcess) {
 TEST(CrewClashes, ResumeAfterAStop) {
     Random random(6202);
     std::size_t stops = 0, recalled = 0;
-    for (int round = 0; round < many(4); ++round) {
+    for (int round = 0; round < many(reduced_for_threads(4, 2)); ++round) {
         const StoredJob job(random, 150);
         for (bool done = false; !done;) {
             std::atomic<bool> stop = false;

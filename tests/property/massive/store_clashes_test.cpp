@@ -10,13 +10,13 @@
 #include "massive/work/large_meshes.h"
 #include "massive/work/stored_parts.h"
 #include "massive/work/work_units.h"
-#include "tests/support/clash_scenes.h"
+#include "tests/support/clash/clash_scenes.h"
 #include "tests/support/folder.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 #include "tests/support/sanitizer.h"
 #include "tests/support/shapes.h"
-#include "tests/support/stored_job.h"
+#include "tests/support/store/stored_job.h"
 
 #include <algorithm>
 #include <atomic>

@@ -9,11 +9,11 @@
 #include "massive/record/job_tables.h"
 #include "massive/record/work_rows.h"
 #include "massive/work/stored_parts.h"
-#include "tests/support/changing_site.h"
-#include "tests/support/clash_scenes.h"
+#include "tests/support/clash/clash_scenes.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 #include "tests/support/sanitizer.h"
+#include "tests/support/store/changing_site.h"
 
 #include <atomic>
 #include <gtest/gtest.h>

@@ -12,13 +12,13 @@
 #include "store/codec/hierarchy_codec.h"
 #include "store/database/hierarchy_table.h"
 #include "store/model_reader.h"
-#include "tests/support/changing_site.h"
-#include "tests/support/clash_scenes.h"
+#include "tests/support/clash/clash_scenes.h"
 #include "tests/support/folder.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 #include "tests/support/shapes.h"
-#include "tests/support/trees.h"
+#include "tests/support/store/changing_site.h"
+#include "tests/support/tree/trees.h"
 
 #include <gtest/gtest.h>
 #include <iostream>

@@ -13,7 +13,7 @@
 #include "tests/support/folder.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
-#include "tests/support/stores.h"
+#include "tests/support/store/stores.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -8,7 +8,7 @@
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 #include "tests/support/shapes.h"
-#include "tests/support/trees.h"
+#include "tests/support/tree/trees.h"
 #include "tree/outline.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // A traversal of two trees by every kind of volume visits every pair of triangles within the bound.
 
 #include "tests/support/simd_targets.h"
-#include "tests/support/traversal.h"
+#include "tests/support/tree/traversal.h"
 #include "tree/traverse_volumes.h"
 
 #include <gtest/gtest.h>

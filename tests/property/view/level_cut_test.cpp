@@ -1,7 +1,7 @@
 // Cuts of random trees, compared with their definition.
-#include "tests/support/level_trees.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
+#include "tests/support/store/level_trees.h"
 #include "view/selection/level_cut.h"
 
 #include <algorithm>

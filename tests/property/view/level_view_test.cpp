@@ -1,9 +1,9 @@
 // Views of random trees with a renderer that only counts: residency, memory, threads, errors.
 #include <abut/error.h>
 
-#include "tests/support/level_trees.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
+#include "tests/support/store/level_trees.h"
 #include "view/level_view.h"
 
 #include <atomic>

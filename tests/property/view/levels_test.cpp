@@ -382,7 +382,8 @@ TEST(Levels, ErrorsHoldInAPlant) {
 }
 
 TEST(Levels, ErrorsHoldForRoughModels) {
-    for (int round = 0; round < many(2); ++round) {
+    const int rounds = many(reduced_for_threads(2, 1));
+    for (int round = 0; round < rounds; ++round) {
         const Folder folder;
         Random random(static_cast<std::uint64_t>(round) + 10);
         const std::string store = store_of(rough_scene(random, round % 2 == 1), folder);
@@ -470,7 +471,7 @@ TEST(Levels, AreContinued) {
 
 TEST(Levels, AreReusedAfterAChange) {
     const Folder folder;
-    Scene scene = plant_scene(reduced_for_threads(200'000U, 60'000U), true);
+    Scene scene = plant_scene(60'000U, true);
     const std::string store = store_of(scene, folder);
     const LevelReport first = build_levels(store);
     const std::string model = folder / "a.glb";

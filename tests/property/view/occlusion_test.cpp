@@ -1,10 +1,10 @@
 // Rays prove that boxes which the occlusion buffer hides cannot be seen.
 #include "math/transform.h"
 #include "math/vector.h"
-#include "tests/support/level_trees.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 #include "tests/support/shapes.h"
+#include "tests/support/store/level_trees.h"
 #include "view/selection/occlusion_buffer.h"
 
 #include <array>

@@ -4,7 +4,7 @@
 #include "geometry/triangle_triangle_distance.h"
 #include "geometry/triangle_triangle_intersect.h"
 #include "tests/support/simd_targets.h"
-#include "tests/support/volumes.h"
+#include "tests/support/tree/volumes.h"
 #include "volume/lower_bound.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Every volume encloses what it was fitted to, decided with 100 digits, and is not much larger.
 
-#include "tests/support/volumes.h"
+#include "tests/support/tree/volumes.h"
 
 #include <gtest/gtest.h>
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,12 @@ std::vector<std::pair<Model, bool>> some_models() {
             models.emplace_back(*model, kind.closed);
     models.emplace_back(Model(torus_mesh(1, .4, 24, 12)), true);
     return models;
+}
+
+/// Bound on the rounding of a distance between two bodies within `far` of the origin on each axis: 64
+/// operations on numbers of at most 4 + 3 far, because each body reaches less than 4 from its place.
+double rounding_at(double far) {
+    return 64 * std::numeric_limits<double>::epsilon() * (4 + 3 * far);
 }
 
 /// A point of a triangle in the world, on a grid of its edges; rounding leaves it off the surface by
@@ -56,7 +63,7 @@ TEST(CoreGap, ACoreOnTheSurfaceIsAsDeepAsItsRadius) {
             random.integer(0, static_cast<int>(model.mesh().triangles.size()) - 1));
         const Segment axis{point_on(random, model, pose, triangle),
                            point_on(random, model, pose, triangle)};
-        const double tolerance = 64 * 0x1p-52 * (4 + 3 * far), radius = .25;
+        const double tolerance = rounding_at(far), radius = .25;
         // The queries of one model and a shape: 0 if they overlap, else rounding.
         const Gap gap = distance(model, pose, axis);
         const Nearest place = nearest(model, pose, axis.a, {.signed_distance = closed});
@@ -104,7 +111,7 @@ TEST(CoreGap, ACoreOnAFaceOfAConvexBodyLeavesAlongTheNormal) {
                            point_on(random, surface, pose, triangle)};
         if (axis.a == axis.b)
             continue;
-        const double tolerance = 64 * 0x1p-52 * (4 + 3 * far);
+        const double tolerance = rounding_at(far);
         for (const AnyShape& core :
              {AnyShape(Sphere{axis.a, radius}), AnyShape(Capsule{axis, radius})}) {
             World world;

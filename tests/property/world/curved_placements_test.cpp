@@ -37,7 +37,7 @@ SolidParts parts_in_world(const PlacedAnySolid& solid) {
     return parts;
 }
 
-/// What all queries say about one pair, in the order of adding.
+/// The answers of all queries about one pair, in the order of adding.
 struct Answers {
     BodyGap gap; ///< of `penetration` if the bodies meet, else of `within`
     bool collide = false, has_depth = false, has_contact = false;
@@ -73,7 +73,7 @@ Answers answers_of(const PlacedAnySolid& a, const PlacedAnySolid& b, double reac
     return answers_of(world, reach);
 }
 
-/// That all queries say the same about a pair whose signed distance is known.
+/// Expects the same answer of all queries about a pair whose signed distance is known.
 void expect_signed_distance(const PlacedAnySolid& a, const PlacedAnySolid& b, double expected,
                             double error) {
     for (const bool swapped : {false, true}) {
@@ -133,7 +133,7 @@ TEST(CurvedPlacements, DepthsOnOneAxisAndOneCentre) {
     const Ellipsoid ball{{}, {1, 1, 1}};
     const double cone = 4 / std::sqrt(5.0);
     Random random(7202);
-    // Also far from the origin, and turned: then the axes are rounded.
+    // The bodies are also turned and far from the origin, where their axes are rounded.
     for (int round = 0; round < many(40); ++round) {
         const Pose pose = round == 0 ? Pose{} : random.pose(round % 2 == 0 ? 1 : 1e4);
         const double error = round % 2 == 0 ? 1e-12 : 1e-10;
@@ -336,7 +336,7 @@ double distance_of_point(const Vec3& point, const PlacedAnySolid& solid) {
     return answers_of({Sphere{point, 0}, {}}, solid).gap.distance;
 }
 
-/// That the gap is the separation along its own normal, and no other direction has a larger one.
+/// Expects the gap to be the separation along its own normal, and no other direction to have a larger one.
 void expect_best(Random& random, const PlacedAnySolid& a, const PlacedAnySolid& b,
                  const BodyGap& gap, double error) {
     const SolidPair pair{parts_in_world(a), parts_in_world(b)};

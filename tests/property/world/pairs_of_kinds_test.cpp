@@ -12,6 +12,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <iostream>
+#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
@@ -71,7 +72,7 @@ bool is_curved(const KindOfBody& body) {
            std::holds_alternative<Ellipsoid>(body.shape);
 }
 
-/// How far the witness points are off their bodies, or off the normal at the distance. Without a
+/// The distance of the witness points from their bodies, or from the normal at the gap. Without a
 /// normal (open surfaces, models that touch) both are one common point.
 double error_of_points(const Pair& pair, const BodyGap& gap) {
     if (!std::isfinite(gap.distance))
@@ -115,7 +116,9 @@ TEST(PairsOfKinds, WitnessPointsLieOnTheBodies) {
     for_pairs_on_grid(random, many(30), [&](const Pair& pair) {
         SCOPED_TRACE(text_of(pair));
         const bool curved = is_curved(pair.a) || is_curved(pair.b);
-        const double tolerance = 16 * 0x1p-52 * (4 + length(pair.pose_a.translation));
+        // Sixteen roundings of coordinates, which lie within 4 of the first body's place.
+        const double tolerance =
+            16 * std::numeric_limits<double>::epsilon() * (4 + length(pair.pose_a.translation));
         World world = world_of(pair);
         std::vector<BodyGap> gaps = world.penetration();
         for (const BodyGap& gap : world.within(2))
@@ -138,7 +141,7 @@ TEST(PairsOfKinds, WitnessPointsLieOnTheBodies) {
     std::cout << off_curved << " of " << of_curved << " points of curved shapes are off\n";
 }
 
-/// What must not depend on which query is asked. The search for a convex or curved shape may begin
+/// Compares the answers of two queries about a pair. The search for a convex or curved shape may begin
 /// where the last one ended, which changes its last bits.
 void expect_same(const BodyGap& gap, const BodyGap& other, bool searched) {
     EXPECT_EQ(gap.status, other.status);
@@ -179,7 +182,7 @@ TEST(PairsOfKinds, AllQueriesTellOneSignedDistance) {
         // Rounding decides whether bodies that only touch do so.
         if (deep->distance > -1e-9)
             return;
-        // The same after other queries of the same world.
+        // Other queries of the same world do not change the answer.
         World world = world_of(pair);
         ASSERT_EQ(world.collide().size(), 1U);
         expect_same(world.within(0).at(0), *deep, searched);

@@ -6,6 +6,7 @@
 
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
+#include "tests/support/sanitizer.h"
 
 #include <array>
 #include <cmath>
@@ -199,7 +200,7 @@ TEST_P(TouchingBodies, AreTheSameForEveryQueryAndOrder) {
     Random random(5401);
     std::size_t met = 0, apart = 0;
     std::map<std::string, int> faults;
-    const int rounds = many(400);
+    const int rounds = many(reduced_for_threads(400, 100));
     for (int round = 0; round < rounds; ++round) {
         const TwoBodies two = touching_bodies(random, placement, curved);
         const std::string names = std::string(two.a.name) + ", " + two.b.name + ": ";

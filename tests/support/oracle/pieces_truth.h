@@ -85,7 +85,7 @@ inline Precise precise_least(const Model& a, const Transform& world_a, const Mod
     return least;
 }
 
-/// How far a point is from a triangle of a model.
+/// The distance of a point from a triangle of a model.
 inline double off(const Model& m, const Transform& world, std::uint32_t triangle,
                   const Vec3& point) {
     const Mesh one{m.mesh().positions, {m.mesh().triangles[triangle]}};

@@ -3,8 +3,8 @@
 #include <abut/error.h>
 
 #include "bcf/archive.h"
+#include "tests/support/clash/random_bcf.h"
 #include "tests/support/folder.h"
-#include "tests/support/random_bcf.h"
 #include "tests/support/rounds.h"
 
 #include <algorithm>

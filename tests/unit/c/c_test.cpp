@@ -188,7 +188,7 @@ TEST_F(CInterface, TransformsThatAreNotFiniteAreRefusedByEveryFunction) {
             EXPECT_EQ(abut_within(model, a, model, b, 1, &answer), ABUT_BAD_ARGUMENT);
             EXPECT_EQ(abut_penetration(model, a, model, b, &depth), ABUT_BAD_ARGUMENT);
         }
-        // Also where there is nothing to ask about.
+        // The arguments are checked even if there is nothing to ask about.
         EXPECT_EQ(abut_nearest(model, &bad, nullptr, 0, 0, nullptr), ABUT_BAD_ARGUMENT);
         EXPECT_EQ(abut_first_hit(model, &bad, nullptr, 0, nullptr), ABUT_BAD_ARGUMENT);
         EXPECT_EQ(abut_contains(model, &bad, nullptr, 0, nullptr), ABUT_BAD_ARGUMENT);

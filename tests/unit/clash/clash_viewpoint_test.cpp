@@ -6,7 +6,7 @@
 #include <abut/shape_queries.h>
 
 #include "clash/viewpoint/depth_picture.h"
-#include "tests/support/clash_scenes.h"
+#include "tests/support/clash/clash_scenes.h"
 #include "tests/support/folder.h"
 #include "tests/support/rounds.h"
 

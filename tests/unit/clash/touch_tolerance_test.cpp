@@ -1,6 +1,7 @@
 // The kinds of docs/clash.md at a touch tolerance t, just within it and just beyond it.
 
 #include "tests/support/classified_pair.h"
+#include "tests/support/sanitizer.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -142,9 +143,11 @@ std::optional<ClashKind> kind_of(const std::optional<Clash>& clash) {
 }
 
 TEST(TouchTolerance, KindsJustWithinAndJustBeyond) {
+    const auto tolerances = reduced_for_threads(
+        std::vector<double>{1e-9, 1e-6, 1e-4, 1e-3, 0.01, 0.1}, std::vector<double>{1e-6, 0.01});
     for (const TouchPlacement& place : kTouchPlacements)
         for (const TouchCase& c : kTouchCases)
-            for (const double t : {1e-9, 1e-6, 1e-4, 1e-3, 0.01, 0.1}) {
+            for (const double t : tolerances) {
                 if (t < place.least_t)
                     continue;
                 SCOPED_TRACE(std::string(c.name) + ", " + place.name + ", t " + std::to_string(t));

@@ -64,7 +64,7 @@ TEST(ExamineSolid, ATriangleTooManyChangesNothing) {
     EXPECT_FALSE(bounds_solid(open_box_mesh({0, 0, 0}, {1, 1, 1})));
 }
 
-/// Which way a shell faces tells a cavity, unless the orientation makes no sense.
+/// A shell that faces inwards is a cavity, unless the orientation makes no sense.
 TEST(ExamineSolid, NestedShells) {
     const Mesh outer = box_mesh({0, 0, 0}, {5, 5, 5}), inner = box_mesh({1, 1, 1}, {2, 2, 2}),
                beside = box_mesh({7, 0, 0}, {8, 1, 1});

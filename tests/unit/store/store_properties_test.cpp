@@ -7,7 +7,7 @@
 #include "store/database/property_table.h"
 #include "store/database/store_file.h"
 #include "tests/support/folder.h"
-#include "tests/support/page_queries.h"
+#include "tests/support/store/page_queries.h"
 
 #include <gtest/gtest.h>
 #include <utility>

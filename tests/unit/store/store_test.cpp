@@ -10,7 +10,7 @@
 #include "store/import/cut_mesh.h"
 #include "store/import/mesh_draft.h"
 #include "tests/support/folder.h"
-#include "tests/support/page_queries.h"
+#include "tests/support/store/page_queries.h"
 
 #include <chrono>
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-// How thick a solid is: the diameter of the largest ball in it.
+// The thickness of a solid is the diameter of the largest ball in it.
 
 #include "rigid/tolerance/overlap_within.h"
 #include "tests/support/body.h"

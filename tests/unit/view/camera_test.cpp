@@ -3,9 +3,9 @@
 #include <abut/error.h>
 
 #include "math/vector.h"
-#include "tests/support/level_trees.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
+#include "tests/support/store/level_trees.h"
 
 #include <array>
 #include <cmath>

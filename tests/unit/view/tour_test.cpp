@@ -4,8 +4,8 @@
 
 #include "math/vector.h"
 #include "tests/support/folder.h"
-#include "tests/support/level_trees.h"
 #include "tests/support/random.h"
+#include "tests/support/store/level_trees.h"
 
 #include <cmath>
 #include <filesystem>

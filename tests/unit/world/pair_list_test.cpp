@@ -23,7 +23,7 @@ SortedPairs difference(const SortedPairs& a, const SortedPairs& b) {
     return rest;
 }
 
-/// So many of the pairs of two rows of boxes, chosen at random, sorted.
+/// A random choice of `count` pairs of two rows of boxes, sorted.
 SortedPairs some_pairs(Random& random, std::uint32_t row, std::size_t count) {
     SortedPairs all;
     for (std::uint32_t i = 0; i < row; ++i)

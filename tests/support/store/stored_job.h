@@ -5,7 +5,7 @@
 #include <abut/store.h>
 #include <abut/store_clash.h>
 
-#include "tests/support/clash_scenes.h"
+#include "tests/support/clash/clash_scenes.h"
 #include "tests/support/folder.h"
 #include "tests/support/random.h"
 

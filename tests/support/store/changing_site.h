@@ -4,10 +4,10 @@
 #include <abut/scene.h>
 #include <abut/store.h>
 
-#include "tests/support/clash_scenes.h"
+#include "tests/support/clash/clash_scenes.h"
 #include "tests/support/folder.h"
 #include "tests/support/random.h"
-#include "tests/support/stores.h"
+#include "tests/support/store/stores.h"
 
 #include <algorithm>
 #include <map>
