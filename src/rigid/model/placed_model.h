@@ -106,10 +106,14 @@ private:
     bool make_frame(bool has_origin);
     void move_to_origin();
     [[nodiscard]] Aabb tree_box(const Box3& box) const;
-    /// Whether a point is so far away that boxes in single precision do not tell which one is nearer.
+    /// Whether boxes in single precision, in the tree's frame, do not tell which one is nearer to a
+    /// point: it is far away, or at some distance under a transform that stretches one direction more
+    /// than another, so that a distance in the tree's frame says little.
     [[nodiscard]] bool is_far(const Vec3& point) const {
-        constexpr double kFar = 16;
-        return !data().tree().empty() && max_abs(point - middle()) > kFar * reach_;
+        constexpr double kUneven = 1 + 0x1p-10, kFar = 16, kFarUneven = 1;
+        const bool is_even = most_stretch_ <= kUneven * least_stretch_;
+        return !data().tree().empty() &&
+               max_abs(point - middle()) > (is_even ? kFar : kFarUneven) * reach_;
     }
     template <typename Visit>
     void for_each_near_far(const Vec3& point, double bound_sq, const Visit& visit) const;

@@ -256,8 +256,7 @@ TEST(FarApart, TheLeastPairOfCopiesIsFoundWithoutAllPairs) {
                  {triangle, sphere_mesh(0.5, 6, 6), box_mesh({0, 0, 0}, {1, 1, 1})}) {
                 const Transform a = is_turned ? random.pose(0) : Transform{},
                                 b = compose(translation(3 + apart, 0.1, 0.2), a);
-                // Copies beside one another in another order, and one that is nearer by nothing.
-                const int few = 24, many_copies = mesh.triangles.size() == 1 ? 4000 : 200;
+                const int few = 8, many_copies = mesh.triangles.size() == 1 ? 4000 : 200;
                 const Model small(copies(mesh, few)), large(copies(mesh, many_copies));
                 const PlacedPair pair(small, a, small, b), large_pair(large, a, large, b);
                 const MeasuredGap brute = brute_gap(pair), found = nearest_gap(pair, kInfinity),
@@ -267,6 +266,7 @@ TEST(FarApart, TheLeastPairOfCopiesIsFoundWithoutAllPairs) {
                     ASSERT_EQ(each.gap.triangle_a, brute.gap.triangle_a);
                     ASSERT_EQ(each.gap.triangle_b, brute.gap.triangle_b);
                 }
+                EXPECT_GT(work(of_all.gap), 0U);
                 EXPECT_LE(work(of_all.gap) / triangles(large, large), 200U) << apart;
                 ++checked;
             }
@@ -307,8 +307,6 @@ TEST(FarApart, NearestOfAFarPointIsNotLinear) {
             const Nearest just =
                 nearest(model, world, point, {.upper_bound = least * (1 + 1e-12) + 1e-12});
             ASSERT_EQ(just.status, Status::exact);
-            // A flat plate straight below the point has its triangles at distances that differ by less
-            // than their rounding.
             std::uint64_t visits = 0;
             double best = kInfinity;
             PlacedModel(model, world).for_each_near(point, kInfinity, [&](std::uint32_t slot) {
@@ -318,7 +316,8 @@ TEST(FarApart, NearestOfAFarPointIsNotLinear) {
                                      .distance_sq);
             });
             most = std::max(most, visits);
-            ASSERT_LE(visits, 400U) << apart << " of " << mesh.triangles.size();
+            // Boxes that are seen askew overlap in depth by their size, the root of a triangle's share.
+            ASSERT_LE(visits * visits, 100 * mesh.triangles.size()) << apart;
         }
     }
     std::cout << "at most " << most << " triangles visited\n";
