@@ -153,6 +153,23 @@ Clash classify_partly_inside(PartPair& pair, const Vec3& point, double touch) {
     return clash;
 }
 
+/// Returns whether a component of `outer` lies inside `inner`, as the surface of a cavity does that is
+/// smaller than what lies around it. Their surfaces must not meet.
+bool holds_a_component(BlockList& inner, BlockList& outer) {
+    const Box3& box = inner.part().box;
+    const std::vector<Vec3> points = outer.solid().component_points();
+    return std::any_of(points.begin(), points.end(), [&](const Vec3& point) {
+        return encloses(box, {point, point}) && inner.solid().winds_around(point);
+    });
+}
+
+/// The volume that a part has in common with the solid that its surface lies in: its own, less the
+/// cavities of that solid within.
+std::optional<OverlapVolume> contained_volume(BlockList& inner, BlockList& outer) {
+    return holds_a_component(inner, outer) ? overlap_volume(inner.solid(), outer.solid())
+                                           : solid_volume(inner.solid());
+}
+
 /// Returns the clash of two parts whose surfaces do not meet: `contained`, `touch`, `clearance` or
 /// none; `hard` or `undecided` if only some components lie inside the other part.
 std::optional<Clash> classify_apart(PartPair& pair, double clearance, double touch) {
@@ -184,7 +201,8 @@ std::optional<Clash> classify_apart(PartPair& pair, double clearance, double tou
     const Vec3 away = normalized_or_zero(gap.point_b - gap.point_a);
     clash.direction = contained ? -away : away;
     if (contained)
-        set_volume(clash, solid_volume(of_a.all ? pair.a().solid() : pair.b().solid()));
+        set_volume(clash, of_a.all ? contained_volume(pair.a(), pair.b())
+                                   : contained_volume(pair.b(), pair.a()));
     return clash;
 }
 

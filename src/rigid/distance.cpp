@@ -396,6 +396,8 @@ MeasuredGap nearest_gap(const PlacedPair& pair, double bound_sq) {
            [&](auto& t, auto& visitor) { return pair.visit_nearest(t, visitor); });
     finder.finish();
     MeasuredGap result;
+    result.gap.counters.volume_tests = traversal.volume_tests;
+    result.gap.counters.primitive_tests = traversal.primitive_tests;
     if (finder.found()) {
         finder.report(result.gap);
         result.measured_sq = finder.measured_sq();

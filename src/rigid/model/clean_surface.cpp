@@ -252,10 +252,14 @@ private:
                 }
         for (std::uint32_t t = 0; t < triangles; ++t) {
             const std::uint32_t root = sets.root(t);
-            if (before[t] || edges_.edges_of(t).empty() || (!is_open[root] && has_rest[root]))
+            if (before[t] || edges_.edges_of(t).empty())
                 continue;
-            edges_.drop(t);
-            result.open.push_back(t);
+            if (is_open[root] || !has_rest[root]) {
+                edges_.drop(t);
+                result.open.push_back(t);
+            } else if (edges_.is_dropped(t)) {
+                result.hanging.push_back(t);
+            }
         }
     }
 

@@ -16,6 +16,9 @@ struct CleanSurface {
     /// The dropped triangles of components that are not closed, whatever is dropped. They may still
     /// bound a solid but for T-junctions.
     std::vector<std::uint32_t> open;
+    /// The triangles that hang by an edge of components that are closed without them. They, too, may
+    /// bound a solid but for T-junctions, as one that shares an edge with a closed one does.
+    std::vector<std::uint32_t> hanging;
     std::vector<std::uint32_t> copies; ///< the dropped triangles of which another copy is left
     /// A dropped triangle is no duplicate of one that is left: it is a surface of its own.
     bool has_sheets = false;

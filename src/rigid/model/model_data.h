@@ -7,6 +7,7 @@
 #include "math/transform.h"
 #include "rigid/model/solid.h"
 #include "rigid/model/solid_boundary.h"
+#include "rigid/model/tree_boxes.h"
 #include "rigid/model/tree_frame.h"
 #include "tree/obb_tree.h"
 #include "tree/outline.h"
@@ -71,6 +72,8 @@ public:
     [[nodiscard]] const Solid& solid() const { return solid_.of(mesh_); }
     /// The boundary of the solid, if that is not the whole surface. The first call searches for it.
     [[nodiscard]] const BoundarySearch& boundary() const { return boundary_.of(mesh_, solid()); }
+    /// The tree's boxes in double precision. The first call makes them. In: the tree is not empty.
+    [[nodiscard]] const std::vector<Box3>& tree_boxes() const { return tree_boxes_.of(*this); }
     [[nodiscard]] std::size_t bytes() const;
 
 private:
@@ -92,6 +95,7 @@ private:
     std::vector<std::array<std::uint32_t, 3>> slots_;
     LazySolid solid_;
     LazyBoundary boundary_;
+    LazyTreeBoxes tree_boxes_;
 };
 
 /// Upper bound on Model::bytes() for this many triangles and vertices, with the overhead of a

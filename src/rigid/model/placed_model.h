@@ -4,11 +4,13 @@
 
 #include "math/rounding.h"
 #include "math/transform.h"
+#include "rigid/model/far_view.h"
 #include "rigid/model/model_data.h"
 #include "tree/traverse_one.h"
 
 #include <algorithm>
 #include <array>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -86,6 +88,9 @@ public:
 
     /// Calls visit(slot) for triangles, the nearest box first. visit returns the squared distance
     /// beyond which triangles do not matter, or kStopTraversal.
+    ///
+    /// From a point that is 1e5 times as far away as the model is large, triangles that are as near as
+    /// the nearest one to the rounding of the coordinates may be left out.
     template <typename Visit>
     void for_each_near(const Vec3& point, double bound_sq, const Visit& visit) const;
 
@@ -101,6 +106,17 @@ private:
     bool make_frame(bool has_origin);
     void move_to_origin();
     [[nodiscard]] Aabb tree_box(const Box3& box) const;
+    /// Whether boxes in single precision, in the tree's frame, do not tell which one is nearer to a
+    /// point: it is far away, or at some distance under a transform that stretches one direction more
+    /// than another, so that a distance in the tree's frame says little.
+    [[nodiscard]] bool is_far(const Vec3& point) const {
+        constexpr double kUneven = 1 + 0x1p-10, kFar = 16, kFarUneven = 1;
+        const bool is_even = most_stretch_ <= kUneven * least_stretch_;
+        return !data().tree().empty() &&
+               max_abs(point - middle()) > (is_even ? kFar : kFarUneven) * reach_;
+    }
+    template <typename Visit>
+    void for_each_near_far(const Vec3& point, double bound_sq, const Visit& visit) const;
     [[nodiscard]] TreeHalfSpace tree_half_space(const HalfSpace& space) const;
     /// Bounds the error in single precision, in the tree's frame, of a world point near the model.
     /// `size`: of the world coordinates that the point was computed from.
@@ -156,7 +172,53 @@ void PlacedModel::for_each_on_segment(const Vec3& from, const Vec3& to, const Vi
 }
 
 template <typename Visit>
+void PlacedModel::for_each_near_far(const Vec3& point, double bound_sq, const Visit& visit) const {
+    struct Entry {
+        double distance = 0;
+        std::uint32_t name = kRootName;
+        bool operator<(const Entry& other) const { return distance > other.distance; }
+    };
+    const FarView view(point, world_from_tree_, world_extent_ + magnitude(point));
+    const std::vector<Box3>& boxes = data().tree_boxes();
+    const double at_first = std::sqrt(bound_sq);
+    double bound = at_first;
+    // Before a triangle is found, none within the bound may be left out.
+    constexpr double kAllEqual = 1e5;
+    const bool leaves_equal_out = max_abs(point - middle()) > kAllEqual * reach_;
+    const auto is_beyond = [&](double distance) {
+        return leaves_equal_out && bound < at_first ? distance + view.rounding() >= bound
+                                                    : distance - view.rounding() > bound;
+    };
+    boost::container::small_vector<Entry, 128> heap{Entry{}};
+    SearchSteps steps;
+    while (!heap.empty() && !is_beyond(heap.front().distance)) {
+        steps.take();
+        std::pop_heap(heap.begin(), heap.end());
+        const NodeRef ref = data().tree().named(heap.back().name);
+        heap.pop_back();
+        for (std::uint32_t i = 0; ref.is_leaf() && i < ref.count(); ++i) {
+            const double sq = visit(ref.first() + i);
+            if (sq < 0)
+                return;
+            bound = std::sqrt(sq);
+        }
+        for (std::uint32_t lane = 0; !ref.is_leaf() && lane < Node::kWidth; ++lane) {
+            if (data().tree().nodes[ref.index()].child[lane].is_none())
+                break;
+            const std::uint32_t name = child_name(ref.index(), lane);
+            const double distance = view.distance(boxes[name]);
+            if (is_beyond(distance))
+                continue;
+            heap.push_back({distance, name});
+            std::push_heap(heap.begin(), heap.end());
+        }
+    }
+}
+
+template <typename Visit>
 void PlacedModel::for_each_near(const Vec3& point, double bound_sq, const Visit& visit) const {
+    if (is_far(point))
+        return for_each_near_far(point, bound_sq, visit);
     const auto tree_bound_sq = [&](double world_sq) {
         if (world_sq < 0)
             return static_cast<float>(kStopTraversal);

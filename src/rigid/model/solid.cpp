@@ -2,6 +2,7 @@
 
 #include "math/vector.h"
 #include "rigid/model/clean_surface.h"
+#include "rigid/model/open_solids.h"
 #include "rigid/model/shells.h"
 
 #include <algorithm>
@@ -18,36 +19,6 @@ Triangle triangle(const Mesh& mesh, std::uint32_t i) {
     return {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
 }
 
-/// Returns the largest of some triangles.
-std::vector<std::uint32_t>
-largest_triangles(const Mesh& mesh, std::span<const std::uint32_t> triangles, std::size_t count) {
-    std::vector<std::pair<double, std::uint32_t>> by_area;
-    for (const std::uint32_t i : triangles)
-        by_area.emplace_back(-doubled_area_sq(triangle(mesh, i)), i);
-    count = std::min(count, by_area.size());
-    std::partial_sort(by_area.begin(), by_area.begin() + static_cast<std::ptrdiff_t>(count),
-                      by_area.end());
-    std::vector<std::uint32_t> result;
-    for (std::size_t i = 0; i < count; ++i)
-        result.push_back(by_area[i].second);
-    return result;
-}
-
-/// Returns how some triangles of a mesh are oriented, if they bound a solid but for T-junctions.
-int outward_by_winding(const Mesh& mesh, std::span<const std::uint32_t> triangles) {
-    OutwardVote vote;
-    for (const std::uint32_t i : largest_triangles(mesh, triangles, kProbes)) {
-        if (vote.failed())
-            break;
-        const FaceProbe probe = face_probe(triangle(mesh, i));
-        const double over = winding_number(mesh, triangles, probe.over);
-        if (OutwardVote::side(over) == 0)
-            return 0;
-        vote.add(over, winding_number(mesh, triangles, probe.under));
-    }
-    return vote.outward();
-}
-
 /// Takes over how the shells of a closed surface bound the solid.
 void orient(Solid& s, const Mesh& mesh, const std::vector<bool>& dropped) {
     ShellOrientation shells = orient_shells(mesh, s.topology, dropped);
@@ -58,37 +29,39 @@ void orient(Solid& s, const Mesh& mesh, const std::vector<bool>& dropped) {
 }
 
 /// Gives the triangles of open components that bound a solid but for T-junctions their weight.
-void add_open(Solid& s, const Mesh& mesh, const std::vector<std::uint32_t>& open, int outward) {
+void add_open(Solid& s, const Mesh& mesh, const std::vector<OpenSolid>& solids) {
+    if (solids.empty())
+        return;
+    const bool any_closed = s.closed;
     s.solid = true;
     s.closed = false;
     if (s.weights.empty())
-        s.weights.assign(mesh.triangles.size(), static_cast<std::int8_t>(s.outward));
-    for (const std::uint32_t t : open)
-        s.weights[t] = static_cast<std::int8_t>(outward);
+        s.weights.assign(mesh.triangles.size(),
+                         static_cast<std::int8_t>(any_closed ? s.outward : 0));
+    for (const OpenSolid& open : solids)
+        for (const std::uint32_t t : open.triangles)
+            s.weights[t] = static_cast<std::int8_t>(open.outward);
     const bool any_out = std::ranges::find(s.weights, 1) != s.weights.end(),
                any_in = std::ranges::find(s.weights, -1) != s.weights.end();
-    s.outward = any_out && any_in ? 0 : outward;
+    s.outward = any_out && any_in ? 0 : any_out ? 1 : -1;
+    s.may_overlap = s.may_overlap || may_overlap(mesh, s, solids);
+    if (std::ranges::find(s.weights, 0) == s.weights.end() && s.outward != 0)
+        s.weights.clear();
 }
 
 /// Examines a mesh with an edge that is not used by exactly two triangles.
 void examine_faulty(Solid& s, const Mesh& mesh) {
     const CleanSurface clean = clean_surface(mesh, s.topology);
-    const int outward = outward_by_winding(mesh, clean.open);
-    const bool is_all_open = clean.open.size() == mesh.triangles.size();
-    s.closed = clean.closed;
-    s.solid = s.closed || outward != 0;
-    s.has_sheets = clean.has_sheets;
+    OpenSolids open = find_open_solids(mesh, s.topology, clean);
+    s.closed = s.solid = clean.closed;
     s.copies = clean.copies;
     if (s.closed)
         orient(s, mesh, clean.dropped);
-    if (outward == 0) {
-        s.open = s.closed ? clean.open : std::vector<std::uint32_t>();
-    } else if (is_all_open) {
-        s.outward = outward;
-        s.has_sheets = false;
-    } else {
-        add_open(s, mesh, clean.open, outward);
-    }
+    add_open(s, mesh, open.solids);
+    std::erase_if(s.copies, [&](std::uint32_t t) { return s.weight(t) != 0; });
+    if (s.solid)
+        s.open = std::move(open.rest);
+    s.has_sheets = s.solid ? !s.open.empty() || open.has_sheets : clean.has_sheets;
 }
 
 /// Spreads the bits of a number. Source: splitmix64 [Steele, Lea, Flood 2014].
@@ -124,8 +97,11 @@ int OutwardVote::side(double over) {
 
 void OutwardVote::add(double over, double under) {
     const int here = side(over);
-    failed_ = failed_ || here == 0 || (outward_ != 0 && outward_ != here) ||
-              !is_near(under, std::round(over) + 1);
+    const double times = std::round(under) - std::round(over);
+    if (here != 0 && times == 0 && is_near(under, std::round(under)))
+        return;
+    failed_ = failed_ || here == 0 || (outward_ != 0 && outward_ != here) || times < 0 ||
+              !is_near(under, std::round(under));
     outward_ = here;
 }
 

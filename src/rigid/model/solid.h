@@ -117,9 +117,10 @@ FaceProbe face_probe(const Triangle& t);
 inline constexpr std::size_t kProbes = 6;
 
 /// Decides how a mesh is oriented by winding numbers beside its largest triangles. +1: the mesh winds
-/// k times around the point over each of them, and k + 1 times around the point under it, with an
-/// integer k >= 0; k > 0 if another shell has the triangle inside. -1: the same with k <= -1. 0:
-/// neither.
+/// k times around the point over each of them, and more often around the point under it, with
+/// integers k >= 0; k > 0 if another shell has the triangle inside. -1: the same with k <= -1. 0:
+/// neither. A triangle with the same number on both sides does not count: another one of opposite
+/// orientation lies on it, as where two solids share a face.
 class OutwardVote {
 public:
     [[nodiscard]] bool failed() const { return failed_; }

@@ -59,11 +59,11 @@ public:
     }
 
     /// Null if nothing lies inside and each triangle counts as its solid says.
-    std::shared_ptr<const SolidBoundary> take() {
+    std::shared_ptr<const SolidBoundary> take(const FacesUncertainty& uncertainty) {
         if (!any_hidden_ && !differs_)
             return nullptr;
-        return std::make_shared<const SolidBoundary>(
-            SolidBoundary{Model(std::move(result_)), std::move(source_), std::move(weight_)});
+        return std::make_shared<const SolidBoundary>(SolidBoundary{
+            Model(std::move(result_)), std::move(source_), std::move(weight_), uncertainty});
     }
 
 private:
@@ -96,7 +96,7 @@ BoundarySearch find_boundary(const Mesh& mesh, const Solid& solid) {
         result.is_known =
             fragments.for_each([&](const FaceFragments::Fragment& f) { boundary.add(f); });
         if (result.is_known)
-            result.boundary = boundary.take();
+            result.boundary = boundary.take(fragments.uncertainty());
     });
     return result;
 }

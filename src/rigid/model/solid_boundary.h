@@ -2,6 +2,7 @@
 
 #include <abut/model.h>
 
+#include "rigid/model/faces_overlay.h"
 #include "rigid/model/solid.h"
 
 #include <cstdint>
@@ -18,6 +19,7 @@ struct SolidBoundary {
     /// By triangle of `model`: +1 or -1 as Solid::weights. 0: it is a sheet, or another triangle lies
     /// on it and counts.
     std::vector<std::int8_t> weight;
+    FacesUncertainty uncertainty; ///< in the mesh's units
 };
 
 struct BoundarySearch {

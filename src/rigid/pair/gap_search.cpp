@@ -6,23 +6,60 @@
 #include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <tuple>
 #include <vector>
 
 namespace abut {
 
 namespace {
 
+/// The slots of triangles that have the same corners, in the same order, as a triangle of a lower index.
+/// Empty if there are none.
+std::vector<bool> repeated_slots(const ModelData& model) {
+    const auto slots = static_cast<std::uint32_t>(model.tree().order.size());
+    std::vector<std::uint32_t> order(slots);
+    std::iota(order.begin(), order.end(), 0U);
+    const auto corner = [&](std::uint32_t slot, std::size_t k) {
+        const Vec3& p =
+            model.mesh().positions[model.mesh().triangles[model.triangle_at(slot)].at(k)];
+        return std::tuple(p.x, p.y, p.z);
+    };
+    const auto compare = [&](std::uint32_t s, std::uint32_t t) {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (corner(s, k) != corner(t, k))
+                return corner(s, k) < corner(t, k) ? -1 : 1;
+        return 0;
+    };
+    std::sort(order.begin(), order.end(), [&](std::uint32_t s, std::uint32_t t) {
+        const int sign = compare(s, t);
+        return sign < 0 || (sign == 0 && model.triangle_at(s) < model.triangle_at(t));
+    });
+    std::vector<bool> repeats;
+    for (std::size_t i = 1; i < order.size(); ++i) {
+        if (compare(order[i - 1], order[i]) != 0)
+            continue;
+        repeats.resize(slots);
+        repeats[order[i]] = true;
+    }
+    return repeats;
+}
+
 /// The boxes of a placed tree along the axes of a GapFrame. Both bounds are those of vertices, as they
 /// are computed.
 class GapBoxes {
 public:
     GapBoxes(const ModelData& model, const Transform& world, const GapFrame& frame)
-        : model_(model), world_(world), frame_(frame),
+        : model_(model), world_(world), frame_(frame), repeats_(repeated_slots(model)),
           boxes_(model.tree().nodes.size() * Node::kWidth), root_(box_of_children(0)) {}
 
     [[nodiscard]] const Tree& tree() const { return model_.tree(); }
     [[nodiscard]] const Box3& box(std::uint32_t name) const {
         return name == kRootName ? root_ : boxes_[name];
+    }
+    /// Whether a triangle of a leaf is a copy of another one.
+    [[nodiscard]] bool repeats(NodeRef leaf, std::uint32_t i) const {
+        return !repeats_.empty() && repeats_[leaf.first() + i];
     }
     /// Upper bound of the distance of a vertex from the frame's origin, but for rounding.
     [[nodiscard]] double reach() const {
@@ -47,15 +84,17 @@ private:
     [[nodiscard]] Box3 box_of_leaf(NodeRef leaf) const {
         Box3 box;
         for (std::uint32_t i = 0; i < leaf.count(); ++i)
-            for (const Vec3& vertex : model_.world_slot(leaf.first() + i, world_))
-                extend(box, frame_.seen(vertex));
+            if (!repeats(leaf, i))
+                for (const Vec3& vertex : model_.world_slot(leaf.first() + i, world_))
+                    extend(box, frame_.seen(vertex));
         return box;
     }
 
     const ModelData& model_;
     const Transform& world_;
     const GapFrame& frame_;
-    std::vector<Box3> boxes_; ///< by the names of children
+    std::vector<bool> repeats_; ///< by slot: copies of other triangles; empty if there are none
+    std::vector<Box3> boxes_;   ///< by the names of children
     Box3 root_;
 };
 
@@ -69,12 +108,9 @@ double gap_of(const Box3& a, const Box3& b) {
                    along(a.lower.z, a.upper.z, b.lower.z, b.upper.z)});
 }
 
-/// All pairs of the triangles of two leaves, as bits of LeafPairs.
-std::uint32_t all_pairs(std::uint32_t count_a, std::uint32_t count_b) {
-    std::uint32_t bits = 0;
-    for (std::uint32_t i = 0; i < count_a; ++i)
-        bits |= ((1U << count_b) - 1) << (TriangleLeaf::kLanes * i);
-    return bits;
+/// Whether a box holds anything: that of copies of triangles elsewhere holds nothing.
+bool holds_any(const Box3& box) {
+    return box.lower.x <= box.upper.x;
 }
 
 class GapSearch {
@@ -132,7 +168,10 @@ private:
         const Node& node = side.tree().nodes[ref.index()];
         const auto before = static_cast<std::ptrdiff_t>(pending_.size());
         for (std::uint32_t lane = 0; lane < Node::kWidth && !node.child[lane].is_none(); ++lane) {
-            const BoxPair pair = pair_of(child_name(ref.index(), lane));
+            const std::uint32_t name = child_name(ref.index(), lane);
+            if (!holds_any(side.box(name)))
+                continue;
+            const BoxPair pair = pair_of(name);
             ++traversal_.volume_tests;
             if (!visitor_.is_beyond(pair.gap, sizes_))
                 pending_.push_back(pair);
@@ -142,8 +181,14 @@ private:
     }
 
     bool visit(NodeRef a, NodeRef b, double gap) {
-        const std::uint32_t all = all_pairs(a.count(), b.count());
-        traversal_.primitive_tests += std::uint64_t{a.count()} * b.count();
+        // All pairs of their triangles, as bits of LeafPairs, but for copies.
+        std::uint32_t all = 0;
+        for (std::uint32_t i = 0; i < a.count(); ++i)
+            for (std::uint32_t j = 0; j < b.count(); ++j)
+                if (!a_.repeats(a, i) && !b_.repeats(b, j)) {
+                    all |= 1U << (TriangleLeaf::kLanes * i + j);
+                    ++traversal_.primitive_tests;
+                }
         LeafPairs pairs;
         (certain_gap(gap, sizes_) > 0 ? pairs.may_be_near : pairs.may_meet) = all;
         return visitor_.visit(a, b, pairs) >= 0;

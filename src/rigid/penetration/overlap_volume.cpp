@@ -362,9 +362,10 @@ private:
 };
 
 /// Returns how much a tiny motion of a surface in a box of this diagonal, the rounding of its
-/// crossings, and its T-junctions can change a volume.
+/// positions and crossings, and its T-junctions can change a volume.
 double volume_error(const NearSurface& surface, double diagonal, double shift) {
     constexpr double kRounding = 0x1p-46, kJunctions = 0x1p-20;
+    const double positions = position_rounding(surface.solid().world_box());
     double in_box = 0, rounding = 0;
     for (const NearFace& face : surface.faces()) {
         const double area = doubled_area(face.corners);
@@ -372,7 +373,7 @@ double volume_error(const NearSurface& surface, double diagonal, double shift) {
         rounding += kRounding * std::max(area, diagonal * diagonal);
     }
     const double gaps = surface.solid().closed() ? 0 : kJunctions * diagonal;
-    return in_box * (shift + gaps) + rounding * diagonal;
+    return in_box * (shift + positions + gaps) + rounding * diagonal;
 }
 
 } // namespace

@@ -16,27 +16,43 @@ namespace {
 /// The integral over faces for a volume, and a bound of its error.
 class VolumeSum {
 public:
-    /// In          size: no two points are farther apart.
-    explicit VolumeSum(double size) : size_(size) {}
+    /// In          size: no point of a face is farther from the zero of coordinates. rounding: how far
+    ///             the positions may be off.
+    VolumeSum(double size, double rounding) : size_(size), rounding_(rounding) {}
 
     /// Adds a convex face. `weight`: +1 if its corners run counter-clockwise seen from outside; -1
     /// if clockwise.
     void add(std::span<const Vec3> corners, int weight) {
-        // Rounding of products, and of corners where faces were cut; a strip that was not cut off.
-        constexpr double kRounding = 0x1p-44, kNarrow = 0x1p-39;
+        constexpr double kRounding = 0x1p-44; // of products
         double around = 0;
         for (std::size_t i = 0; i < corners.size(); ++i)
             around += length(corners[(i + 1) % corners.size()] - corners[i]);
-        for (std::size_t i = 2; i < corners.size(); ++i)
-            volume_ += weight * dot(corners[0], cross(corners[i - 1], corners[i])) / 6;
-        error_ += kRounding * size_ * size_ * around + kNarrow * size_ * size_ * around;
+        for (std::size_t i = 2; i < corners.size(); ++i) {
+            const Vec3 doubled = cross(corners[i - 1] - corners[0], corners[i] - corners[0]);
+            volume_ += weight * dot(corners[0], doubled) / 6;
+            areas_ = areas_ + (0.5 * weight) * doubled;
+            error_ += rounding_ * length(doubled);
+        }
+        error_ += kRounding * size_ * size_ * around;
+        area_error_ += (kRounding * size_ + rounding_) * around;
     }
+    /// Adds what faces may have told wrongly.
+    void add(const FacesUncertainty& uncertainty, double stretch = 1) {
+        const double area = stretch * stretch * uncertainty.area;
+        area_error_ += area;
+        error_ += area * size_ + stretch * stretch * stretch * uncertainty.volume;
+    }
+    /// None if the faces do not close: then they contradict each other.
     [[nodiscard]] std::optional<OverlapVolume> result() const {
+        if (!(length(areas_) <= area_error_))
+            return std::nullopt;
         return finite_volume(volume_, error_);
     }
 
 private:
-    double size_, volume_ = 0, error_ = 0;
+    double size_, rounding_, volume_ = 0, error_ = 0;
+    Vec3 areas_; ///< the sum of areas along their normals, which is 0 for a closed surface
+    double area_error_ = 0;
 };
 
 /// The triangles of two solids, relative to a point, with their weights.
@@ -68,10 +84,12 @@ struct SolidFaces {
 std::optional<OverlapVolume> union_volume(const WorldSolid& solid) {
     const Box3 box = solid.world_box();
     const Vec3 origin = 0.5 * box.lower + 0.5 * box.upper;
-    VolumeSum sum(length(box.upper - box.lower));
+    VolumeSum sum(length(box.upper - box.lower), position_rounding(box));
     // Weights are those of the stored triangles, which a mirroring transform turns over.
     const SolidBoundary& boundary = *solid.boundary();
+    double stretch = 0;
     solid.for_each_surface_block(box, [&](const WorldSolid::Block& block) {
+        stretch = std::max(stretch, block.model.most_stretch());
         for (std::uint32_t t = 0; t < boundary.weight.size(); ++t) {
             Triangle corners = block.model.world_triangle(t);
             for (Vec3& p : corners)
@@ -81,6 +99,7 @@ std::optional<OverlapVolume> union_volume(const WorldSolid& solid) {
         }
         return true;
     });
+    sum.add(boundary.uncertainty, stretch);
     return sum.result();
 }
 
@@ -96,15 +115,25 @@ std::optional<OverlapVolume> union_overlap_volume(const WorldSolid& a, const Wor
     both.add(a, 0, origin), both.add(b, 1, origin);
     if (both.faces.size() > kMostOverlapTriangles)
         return std::nullopt;
-    VolumeSum sum(std::max({length(box_a.upper - box_a.lower), length(box_b.upper - box_b.lower)}));
-    FaceFragments fragments(std::move(both.mesh), std::move(both.faces));
+    const double rounding = std::max(position_rounding(box_a), position_rounding(box_b));
+    VolumeSum sum(
+        2 * std::max(length(box_a.upper - box_a.lower), length(box_b.upper - box_b.lower)),
+        rounding);
+    FaceFragments fragments(std::move(both.mesh), std::move(both.faces), rounding);
     const bool is_complete = fragments.for_each([&](const FaceFragments::Fragment& f) {
         const bool over = f.sides.over[0] >= 1 && f.sides.over[1] >= 1,
                    under = f.sides.under[0] >= 1 && f.sides.under[1] >= 1;
         if (over != under && f.sides.is_first)
             sum.add(f.corners, under ? 1 : -1);
     });
-    return is_complete ? sum.result() : std::nullopt;
+    if (!is_complete)
+        return std::nullopt;
+    sum.add(fragments.uncertainty());
+    return sum.result();
+}
+
+double position_rounding(const Box3& box) {
+    return 0x1p-50 * std::max(max_abs(box.lower), max_abs(box.upper));
 }
 
 std::optional<OverlapVolume> finite_volume(double volume, double error) {

@@ -15,10 +15,14 @@ std::optional<OverlapVolume> union_volume(const WorldSolid& solid);
 /// In          closed solids whose orientation is known.
 /// Out         none if both have more than kMostOverlapTriangles triangles together, or if there
 ///             are too many parts (FaceFragments::for_each); or if one has T-junctions.
-/// Accuracy    |volume - true volume| <= error: rounding, and parts narrower than 2^-40 of the
-///             solids' size.
+/// Accuracy    |volume - true volume| <= error: rounding, also of positions; what lies between faces
+///             that coincide but for rounding; and parts narrower than FaceFragments cuts off.
 /// Cost        O(n log n + pairs of faces that meet), and a ray for each part of a cut face.
 std::optional<OverlapVolume> union_overlap_volume(const WorldSolid& a, const WorldSolid& b);
+
+/// How far placed positions in a box may be off those that were meant: some roundings of the largest
+/// coordinates.
+double position_rounding(const Box3& box);
 
 /// Returns none if the coordinates are so large that a product is beyond the range of numbers.
 std::optional<OverlapVolume> finite_volume(double volume, double error);

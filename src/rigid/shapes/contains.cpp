@@ -37,13 +37,17 @@ private:
         const Solid& solid = placed_.solid();
         const Mesh& mesh = placed_.model().data().mesh();
         const Vec3 in_mesh = apply(model_from_world_, point);
-        const double number = !solid.open.empty()      ? winding_number(mesh, solid.open, in_mesh)
-                              : !solid.weights.empty() ? winding_number(mesh, solid, in_mesh)
-                                                       : winding_number(mesh, in_mesh);
-        const bool turned = placed_.is_mirrored() && (solid.weights.empty() || !solid.open.empty());
+        const auto ask = [&](double number, bool is_stored) {
+            result.winding_number = placed_.is_mirrored() && is_stored ? -number : number;
+            result.side = std::abs(number) >= 0.5 ? Side::inside : Side::outside;
+        };
+        if (!solid.closed && !solid.weights.empty())
+            ask(winding_number(mesh, solid, in_mesh), false);
+        else if (solid.open.empty())
+            ask(winding_number(mesh, in_mesh), true);
+        if (result.side == Side::outside && !solid.open.empty())
+            ask(winding_number(mesh, solid.open, in_mesh), true);
         result.method = ContainmentMethod::winding;
-        result.winding_number = turned ? -number : number;
-        result.side = std::abs(number) >= 0.5 ? Side::inside : Side::outside;
     }
 
     PlacedSolid placed_;

@@ -2,9 +2,12 @@
 // pairs are equally near, and single precision tells hardly any of them apart. The work is counted.
 
 #include <abut/rigid.h>
+#include <abut/shape_queries.h>
 
 #include "geometry/leaf/triangle_pair_batch.h"
+#include "geometry/point_triangle_distance.h"
 #include "geometry/triangle_triangle_distance.h"
+#include "rigid/model/placed_model.h"
 #include "rigid/pair/placed_pair.h"
 #include "scenes/bodies.h"
 #include "tests/support/oracle/brute_force.h"
@@ -238,6 +241,86 @@ TEST(FarApart, CoincidentTrianglesAreNotQuadratic) {
             EXPECT_LE(work(gap) / triangles(all, all), 64U) << apart;
         }
     }
+}
+
+/// The clash job's search, which wants the smallest indices of all pairs that are equally near.
+TEST(FarApart, TheLeastPairOfCopiesIsFoundWithoutAllPairs) {
+    Random random(3215);
+    Mesh triangle;
+    triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    triangle.triangles = {{0, 1, 2}};
+    int checked = 0;
+    for (const double apart : {1e-3, 1.0, 1e3})
+        for (const bool is_turned : {false, true})
+            for (const Mesh& mesh :
+                 {triangle, sphere_mesh(0.5, 6, 6), box_mesh({0, 0, 0}, {1, 1, 1})}) {
+                const Transform a = is_turned ? random.pose(0) : Transform{},
+                                b = compose(translation(3 + apart, 0.1, 0.2), a);
+                const int few = 8, many_copies = mesh.triangles.size() == 1 ? 4000 : 200;
+                const Model small(copies(mesh, few)), large(copies(mesh, many_copies));
+                const PlacedPair pair(small, a, small, b), large_pair(large, a, large, b);
+                const MeasuredGap brute = brute_gap(pair), found = nearest_gap(pair, kInfinity),
+                                  of_all = nearest_gap(large_pair, kInfinity);
+                for (const MeasuredGap& each : {found, of_all}) {
+                    ASSERT_EQ(each.measured_sq, brute.measured_sq);
+                    ASSERT_EQ(each.gap.triangle_a, brute.gap.triangle_a);
+                    ASSERT_EQ(each.gap.triangle_b, brute.gap.triangle_b);
+                }
+                EXPECT_GT(work(of_all.gap), 0U);
+                EXPECT_LE(work(of_all.gap) / triangles(large, large), 200U) << apart;
+                ++checked;
+            }
+    EXPECT_EQ(checked, 18);
+}
+
+/// Nearest points of a model to a point that is up to 1e9 times as far away as the model is large.
+TEST(FarApart, NearestOfAFarPointIsNotLinear) {
+    Random random(3216);
+    std::uint64_t most = 0;
+    const Mesh ball = sphere_mesh(0.5, 96, 96), knot = scenes::knot(400);
+    const Mesh rough = plate(96, [&](double, double) { return 0.01 * random.uniform(-1, 1); });
+    for (const Mesh& mesh : {ball, knot, rough, flat_plate(96)}) {
+        const Model model(mesh);
+        for (int i = 0; i < many(60); ++i) {
+            SCOPED_TRACE(i);
+            const double apart = std::pow(10, random.uniform(1, 9));
+            const bool is_along_an_axis = random.chance(0.5);
+            const Vec3 way =
+                is_along_an_axis ? Vec3{0, 0, random.chance(0.5) ? 1.0 : -1.0} : random.direction();
+            const double aside = random.chance(0.5) ? 0 : 0.3;
+            const Transform world = random.chance(0.5)   ? Transform{}
+                                    : random.chance(0.5) ? Transform(random.pose(1))
+                                                         : random.linear_map(true);
+            const Vec3 point = apply(world, apart * way + Vec3{aside, 0.1 * aside, 0});
+            double brute = kInfinity;
+            for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+                brute = std::min(
+                    brute,
+                    nearest_on_triangle(point, model.data().world_triangle(t, world)).distance_sq);
+            const double least = std::sqrt(brute);
+            const Nearest found = nearest(model, world, point);
+            ASSERT_EQ(found.status, Status::exact);
+            ASSERT_NEAR(found.distance, least, 1e-14 * (least + 10));
+            const Nearest none =
+                nearest(model, world, point, {.upper_bound = least * (1 - 1e-12) - 1e-12});
+            ASSERT_EQ(none.status, Status::bound_only);
+            const Nearest just =
+                nearest(model, world, point, {.upper_bound = least * (1 + 1e-12) + 1e-12});
+            ASSERT_EQ(just.status, Status::exact);
+            std::uint64_t visits = 0;
+            double best = kInfinity;
+            PlacedModel(model, world).for_each_near(point, kInfinity, [&](std::uint32_t slot) {
+                ++visits;
+                return best = std::min(
+                           best, nearest_on_triangle(point, model.data().world_slot(slot, world))
+                                     .distance_sq);
+            });
+            most = std::max(most, visits);
+            // Boxes that are seen askew overlap in depth by their size, the root of a triangle's share.
+            ASSERT_LE(visits * visits, 100 * mesh.triangles.size()) << apart;
+        }
+    }
+    std::cout << "at most " << most << " triangles visited\n";
 }
 
 TEST(FarApart, LimitsOfStepsHold) {
