@@ -12,7 +12,7 @@ namespace abut::command {
 namespace {
 
 /// Lists no more configurations than this on a terminal.
-constexpr std::size_t kMostLines = 40;
+constexpr std::size_t kMostListed = 40;
 
 /// One configuration of the list.
 std::span<const double> configuration_at(const std::vector<double>& values, std::size_t i,
@@ -116,11 +116,11 @@ std::string check_text(const std::vector<Checked>& checked, const RobotCell& cel
         ways += each.way && each.way->meet ? 1 : 0;
         beyond += each.beyond.empty() ? 0 : 1;
         const std::string lines = check_lines(each, i, cell);
-        if (!lines.empty() && listed++ < kMostLines)
+        if (!lines.empty() && listed++ < kMostListed)
             text += lines;
     }
-    if (listed > kMostLines)
-        text += fmt::format("… and {} more\n", grouped(listed - kMostLines));
+    if (listed > kMostListed)
+        text += fmt::format("… and {} more\n", grouped(listed - kMostListed));
     text += fmt::format("{} of {} configurations meet something", grouped(meeting),
                         grouped(checked.size()));
     if (ways > 0)

@@ -65,17 +65,17 @@ std::string table(const GraphReport& graph, const std::string& store) {
         grouped(graph.highest_valence), grouped(graph.bytes), grouped(graph.large_bytes),
         grouped(graph.large_meshes), grouped(graph.units.size()), grouped(graph.cut_edges),
         graph.seconds);
-    constexpr std::size_t kRows = 40;
+    constexpr std::size_t kMostUnits = 40;
     if (graph.units.size() > 1)
         text += "\n  unit     parts     edges    meshes         bytes\n";
-    for (std::size_t i = 0; i < std::min(kRows, graph.units.size()) && graph.units.size() > 1;
+    for (std::size_t i = 0; i < std::min(kMostUnits, graph.units.size()) && graph.units.size() > 1;
          ++i) {
         const GraphReport::Unit& unit = graph.units[i];
         text += fmt::format("  {:>4} {:>9} {:>9} {:>9} {:>13}\n", i + 1, grouped(unit.parts),
                             grouped(unit.edges), grouped(unit.meshes), grouped(unit.bytes));
     }
-    if (graph.units.size() > kRows)
-        text += fmt::format("  and {} more\n", grouped(graph.units.size() - kRows));
+    if (graph.units.size() > kMostUnits)
+        text += fmt::format("  and {} more\n", grouped(graph.units.size() - kMostUnits));
     return text;
 }
 

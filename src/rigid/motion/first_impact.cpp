@@ -53,7 +53,7 @@ constexpr std::uint32_t kAllLanes = (1U << Node::kWidth) - 1;
 
 /// Two boxes by their names, or two triangles by their slots, that certainly do not meet before
 /// `time`.
-struct Waiting {
+struct WaitingPair {
     double time;
     std::uint32_t a, b;
 };
@@ -66,24 +66,24 @@ public:
     /// Infinite if the queue is empty.
     [[nodiscard]] double first_time() const { return heap_.empty() ? kNoTime : heap_.front().time; }
 
-    void push(const Waiting& pair) {
+    void push(const WaitingPair& pair) {
         heap_.push_back(pair);
         std::push_heap(heap_.begin(), heap_.end(), Later{});
     }
-    Waiting pop() {
+    WaitingPair pop() {
         std::pop_heap(heap_.begin(), heap_.end(), Later{});
-        const Waiting first = heap_.back();
+        const WaitingPair first = heap_.back();
         heap_.pop_back();
         return first;
     }
 
 private:
     struct Later {
-        bool operator()(const Waiting& x, const Waiting& y) const {
+        bool operator()(const WaitingPair& x, const WaitingPair& y) const {
             return x.time > y.time || (x.time == y.time && x.a < y.a);
         }
     };
-    std::vector<Waiting> heap_;
+    std::vector<WaitingPair> heap_;
 };
 
 /// Half the diagonal of a box, in its tree's units. In single precision, since it decides only what
@@ -162,7 +162,7 @@ private:
     }
 
     /// Replaces a pair of boxes by the pairs below it.
-    void open(const Waiting& pair) {
+    void open(const WaitingPair& pair) {
         const NodeRef a = tree_a_.named(pair.a), b = tree_b_.named(pair.b);
         const double radius_a = pair_.a.scale * radius_of(tree_a_, pair.a),
                      radius_b = pair_.b.scale * radius_of(tree_b_, pair.b);
@@ -209,7 +209,7 @@ private:
     /// Relative to a large leaf, single precision does not locate a small box. In double precision,
     /// the ball around the box may be proven apart from the leaf's triangles for some time. Returns
     /// false if the ball is so near that its contents must be opened.
-    bool postpone(const Waiting& pair, const SmallBox& small, const LargeLeaf& large) {
+    bool postpone(const WaitingPair& pair, const SmallBox& small, const LargeLeaf& large) {
         if (small.name == kRootName)
             return false;
         const Transform world_from_small = small.body.trajectory.at(pair.time),
@@ -234,7 +234,7 @@ private:
         return true;
     }
 
-    void open_leaves(const Waiting& pair, const TimeSpan& span) {
+    void open_leaves(const WaitingPair& pair, const TimeSpan& span) {
         const NodeRef leaf_a = tree_a_.named(pair.a), leaf_b = tree_b_.named(pair.b);
         MeetingTriangles found;
         find_meeting(span, tree_a_.nodes[node_of(pair.a)], tree_a_.leaf(leaf_a),
@@ -258,7 +258,7 @@ private:
     }
 
     /// Measures two triangles. They end the search, or wait for their next time.
-    void advance(const Waiting& pair) {
+    void advance(const WaitingPair& pair) {
         ++counters_.primitive_tests;
         const Triangle a = triangle_a(pair.a, pair.time), b = triangle_b(pair.b, pair.time);
         const ClosestPoints closest = triangle_triangle_distance(a, b);
@@ -273,7 +273,7 @@ private:
 
     /// Returns whether two triangles within the tolerance end the search: they will meet, or it
     /// cannot be decided.
-    bool decide(const Waiting& pair, const ClosestPoints& closest, double gap) {
+    bool decide(const WaitingPair& pair, const ClosestPoints& closest, double gap) {
         const Vec3 normal = normalized_or_zero(closest.b - closest.a);
         const double closing =
             dot(normal, pair_.a.trajectory.velocity_at(closest.a, pair.time) -
@@ -308,7 +308,7 @@ private:
 
     /// A time at which the two triangles share a point: now, or near the time that their present
     /// speed predicts. Infinite if none is found.
-    double contact_of_triangles(const Waiting& pair, double expected) {
+    double contact_of_triangles(const WaitingPair& pair, double expected) {
         for (const double part : {0.0, 1.001, 1.1, 2.0, 8.0}) {
             const double time = std::min(kEnd, pair.time + part * expected);
             ++counters_.primitive_tests;

@@ -11,7 +11,7 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 /// A factor that outweighs what the roundings below can add to a time.
 constexpr double kShorter = 1 - 0x1p-40;
-constexpr int kRounds = 3; // more rounds gain little
+constexpr int kBoundRounds = 3; // more rounds gain little
 
 } // namespace
 
@@ -37,7 +37,7 @@ double free_time(const Vec3& offset, const Vec3& velocity, double bend, double s
     // Up to time `end`, bend / 2 s^2 <= growth s. So balls that move straight and whose radii grow
     // by `growth` in sum enclose the balls. They meet where |offset + s velocity| = r + growth s.
     double proven = 0;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kBoundRounds; ++round) {
         const double end = round == 0 ? horizon : std::min(horizon, 2 * proven);
         const double growth = 0.5 * bend * end;
         const double half_slope = closing - r * growth, square = speed_sq - growth * growth;

@@ -13,8 +13,8 @@ namespace {
 
 /// Relative error of sums of a few products in single precision, and of axes whose length is nearly
 /// 1: both are about 2^-22.
-constexpr double kRounding = 0x1p-20;
-constexpr double kMore = 1 + kRounding;
+constexpr double kNodeRounding = 0x1p-20;
+constexpr double kMore = 1 + kNodeRounding;
 /// Absolute error: above what products lose that underflow in single precision.
 constexpr double kTooSmall = 0x1p-100;
 /// Path lengths beyond which products may overflow.
@@ -161,7 +161,7 @@ NodeMotion motion_of(const FrameMotion& frame, double duration, const Node& own,
     m.own_from_other = to_float(kMore * frame.own_from_other);
     m.turns = frame.rate_own + frame.rate_other > 0;
     double rounding =
-        kRounding * (std::abs(velocity.x) + std::abs(velocity.y) + std::abs(velocity.z)) +
+        kNodeRounding * (std::abs(velocity.x) + std::abs(velocity.y) + std::abs(velocity.z)) +
         frame.margin;
     if (m.turns) {
         const Vec3 between = frame.spin_other - frame.spin_own;
@@ -179,7 +179,7 @@ NodeMotion motion_of(const FrameMotion& frame, double duration, const Node& own,
         m.turn_own = across_axes(m.spin_own);
         m.turn_other = across_axes(m.spin_other);
         // The points' positions are exact but for the margin.
-        rounding += kRounding * (rate_own * x.radius_own + rate_other * x.reach_other) +
+        rounding += kNodeRounding * (rate_own * x.radius_own + rate_other * x.reach_other) +
                     kDiagonal * (rate_own + rate_other) * own_from_other.margin;
         set_spread(frame, own, x, duration, m);
     }

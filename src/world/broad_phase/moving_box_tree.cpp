@@ -13,7 +13,7 @@ namespace abut {
 
 namespace {
 
-constexpr std::size_t kNodesOfTask = 256;
+constexpr std::size_t kMovingNodesOfTask = 256;
 
 /// Prefetches both cache lines that a box may lie in.
 void prefetch(const Box3* box) {
@@ -99,7 +99,8 @@ void MovingBoxTree::fit_node(std::span<const Box3> boxes, std::size_t node) {
 }
 
 void MovingBoxTree::refit_all(std::span<const Box3> boxes) {
-    parallel_for(levels_[0].size(), kNodesOfTask, [&](std::size_t node) { fit_node(boxes, node); });
+    parallel_for(levels_[0].size(), kMovingNodesOfTask,
+                 [&](std::size_t node) { fit_node(boxes, node); });
     levels_.fit();
 }
 

@@ -100,7 +100,7 @@ Mesh make_mesh(Random& random, Shape shape) {
     }
 }
 
-struct Case {
+struct HardCase {
     Mesh mesh_a, mesh_b;
     Transform world_a, world_b;
     Volume volume = Volume::automatic;
@@ -113,7 +113,7 @@ struct Truth {
     double distance = 0;
     double largest = 0; ///< coordinate, absolute
 
-    explicit Truth(const Case& c)
+    explicit Truth(const HardCase& c)
         : a(placed_triangles(c.mesh_a, c.world_a)), b(placed_triangles(c.mesh_b, c.world_b)),
           pairs(brute_pairs(a, b)) {
         for (const auto* triangles : {&a, &b})
@@ -167,7 +167,7 @@ void expect_gap(const Gap& gap, const std::vector<PlacedTriangle>& a,
 }
 
 /// Checks all queries against the truth. Returns the distance.
-double check(const Case& c) {
+double check(const HardCase& c) {
     const Truth truth(c);
     const Model a(c.mesh_a, {c.volume}), b(c.mesh_b, {c.volume});
     EXPECT_EQ(collide(a, c.world_a, b, c.world_b, {.mode = ContactMode::all}).pairs, truth.pairs);
@@ -204,7 +204,8 @@ double check(const Case& c) {
 }
 
 /// Moving the whole case keeps the distance, up to the rounding of positions.
-void expect_same_when_moved(const Case& c, double before, const Transform& motion, double reach) {
+void expect_same_when_moved(const HardCase& c, double before, const Transform& motion,
+                            double reach) {
     const Model a(c.mesh_a, {c.volume}), b(c.mesh_b, {c.volume});
     const double after =
         distance(a, compose(motion, c.world_a), b, compose(motion, c.world_b)).distance;
@@ -242,8 +243,8 @@ Vec3 point_of(Random& random, const Mesh& mesh, const Transform& world) {
 }
 
 /// reach: receives a bound on the numbers from which positions are computed.
-Case make_case(Random& random, Place place, Shape shape_a, Shape shape_b, double& reach) {
-    Case c{make_mesh(random, shape_a), make_mesh(random, shape_b), {}, {}};
+HardCase make_case(Random& random, Place place, Shape shape_a, Shape shape_b, double& reach) {
+    HardCase c{make_mesh(random, shape_a), make_mesh(random, shape_b), {}, {}};
     double size = 1, by_transform = 1;
     Vec3 at = random.in_cube(1), middle_a, middle_b;
     reach = 4;
@@ -299,7 +300,7 @@ TEST_P(HardInputs, EqualBruteForce) {
         for (const Shape shape_b : kShapes)
             for (int i = 0; i < 3; ++i, ++rounds) {
                 double reach = 0;
-                Case c = make_case(random, place, shape_a, shape_b, reach);
+                HardCase c = make_case(random, place, shape_a, shape_b, reach);
                 c.volume = static_cast<Volume>(rounds % (static_cast<int>(Volume::ssv) + 1));
                 const double d = check(c);
                 const Transform motion = put(random, 1, {}, random.in_cube(reach));
@@ -327,7 +328,7 @@ TEST(HardInputs, CoincidentModels) {
             for (const bool nudged : {false, true}) {
                 const Mesh mesh = make_mesh(random, shape);
                 const Transform world = put(random, 1, {}, random.in_cube(far));
-                Case c{mesh, mesh, world, world};
+                HardCase c{mesh, mesh, world, world};
                 c.volume = static_cast<Volume>(rounds++ % (static_cast<int>(Volume::ssv) + 1));
                 if (nudged)
                     for (std::size_t i = 9; i < 12; ++i)

@@ -312,10 +312,10 @@ protected:
     Random random{5};
 
     Model model() {
-        constexpr std::array kVolumes{Volume::automatic, Volume::aabb, Volume::sphere,
-                                      Volume::kdop18,    Volume::obb,  Volume::rss};
-        const ModelOptions options{.volume =
-                                       kVolumes.at(static_cast<std::size_t>(random.integer(0, 5)))};
+        constexpr std::array kEachVolume{Volume::automatic, Volume::aabb, Volume::sphere,
+                                         Volume::kdop18,    Volume::obb,  Volume::rss};
+        const ModelOptions options{
+            .volume = kEachVolume.at(static_cast<std::size_t>(random.integer(0, 5)))};
         switch (random.integer(0, 2)) {
         case 0:
             return Model(sphere_mesh(1, 20, 14), options);

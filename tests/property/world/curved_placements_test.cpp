@@ -38,12 +38,12 @@ SolidParts parts_in_world(const PlacedAnySolid& solid) {
 }
 
 /// The answers of all queries about one pair, in the order of adding.
-struct Answers {
+struct PlacedAnswers {
     BodyGap gap; ///< of `penetration` if the bodies meet, else of `within`
     bool collide = false, has_depth = false, has_contact = false;
     double within = 0; ///< the distance that `within` gives
     std::optional<ContactManifold> contact;
-    bool operator==(const Answers& other) const {
+    bool operator==(const PlacedAnswers& other) const {
         return collide == other.collide && has_depth == other.has_depth &&
                has_contact == other.has_contact && within == other.within &&
                gap.distance == other.gap.distance && gap.normal == other.gap.normal &&
@@ -52,8 +52,8 @@ struct Answers {
     }
 };
 
-Answers answers_of(World& world, double reach) {
-    Answers answers;
+PlacedAnswers answers_of(World& world, double reach) {
+    PlacedAnswers answers;
     answers.collide = !world.collide().empty();
     const std::vector<BodyGap> depths = world.penetration(), gaps = world.within(reach);
     const std::vector<ContactManifold> contacts = world.contact_manifolds();
@@ -67,7 +67,7 @@ Answers answers_of(World& world, double reach) {
     return answers;
 }
 
-Answers answers_of(const PlacedAnySolid& a, const PlacedAnySolid& b, double reach = 1e3) {
+PlacedAnswers answers_of(const PlacedAnySolid& a, const PlacedAnySolid& b, double reach = 1e3) {
     World world;
     add_solid(world, a), add_solid(world, b);
     return answers_of(world, reach);
@@ -77,7 +77,7 @@ Answers answers_of(const PlacedAnySolid& a, const PlacedAnySolid& b, double reac
 void expect_signed_distance(const PlacedAnySolid& a, const PlacedAnySolid& b, double expected,
                             double error) {
     for (const bool swapped : {false, true}) {
-        const Answers found = swapped ? answers_of(b, a) : answers_of(a, b);
+        const PlacedAnswers found = swapped ? answers_of(b, a) : answers_of(a, b);
         EXPECT_NEAR(found.gap.distance, expected, error);
         EXPECT_EQ(found.gap.distance, found.within);
         EXPECT_EQ(found.gap.status, Status::exact);
@@ -118,7 +118,7 @@ TEST(CurvedPlacements, OverlapsThatWereFoundFree) {
     const PlacedAnySolid a{Ellipsoid{{}, {0.25, 0.5, 10}}, {}},
         b{Ellipsoid{{}, {0.25, 0.5, 0.5}}, moved_by({0, 0.25, 3.5})};
     Random random(7201);
-    const Answers found = answers_of(a, b);
+    const PlacedAnswers found = answers_of(a, b);
     const SolidPair pair{parts_in_world(a), parts_in_world(b)};
     EXPECT_TRUE(found.collide && found.has_depth && found.has_contact);
     EXPECT_NEAR(found.gap.distance, double(pair.largest_separation(random, found.gap.normal)),
@@ -222,7 +222,7 @@ TEST(CurvedPlacements, ParallelEllipsoidsOfOneShape) {
             length({offset.x / half.x, offset.y / half.y, offset.z / half.z}) / (1 + scale);
         if (std::abs(ratio - 1) < 1e-9)
             continue;
-        const Answers found =
+        const PlacedAnswers found =
             answers_of({Ellipsoid{{}, half}, {}}, {Ellipsoid{{}, scale * half}, moved_by(offset)});
         EXPECT_EQ(found.collide, ratio < 1) << round;
         EXPECT_EQ(found.has_depth, ratio < 1);
@@ -285,7 +285,7 @@ TEST(CurvedPlacements, TrianglesOfAMeshThroughAnEllipsoid) {
             world.add(ellipsoid, {}), world.add(model, {});
         else
             world.add(model, {}), world.add(ellipsoid, {});
-        const Answers found = answers_of(world, 1e3);
+        const PlacedAnswers found = answers_of(world, 1e3);
         EXPECT_EQ(found.collide, ratio < 1) << round;
         EXPECT_EQ(found.has_depth, ratio < 1);
         EXPECT_EQ(found.has_contact, ratio < 1);
@@ -377,7 +377,7 @@ TEST(CurvedPlacements, AnyKindsOnAGridAgreeWithBruteForce) {
         if (far)
             a.pose.translation = {1e6, -1e6, 1e6},
             b.pose.translation = b.pose.translation + a.pose.translation;
-        const Answers found = answers_of(a, b);
+        const PlacedAnswers found = answers_of(a, b);
         ASSERT_EQ(found.collide, found.gap.distance <= 0);
         EXPECT_EQ(found.has_depth, found.collide);
         EXPECT_EQ(found.has_contact, found.collide);
@@ -392,7 +392,7 @@ TEST(CurvedPlacements, AnyKindsOnAGridAgreeWithBruteForce) {
         }
         rough += error_of_both > error ? 1 : 0;
         // In the other order.
-        const Answers turned = answers_of(b, a);
+        const PlacedAnswers turned = answers_of(b, a);
         EXPECT_EQ(turned.collide, found.collide);
         EXPECT_EQ(turned.gap.distance, found.gap.distance);
         EXPECT_EQ(turned.gap.normal, -found.gap.normal);
@@ -431,7 +431,7 @@ TEST(CurvedPlacements, RestingSolidsTouchForAllQueries) {
               moved_by({random.integer(-4, 4) / 8.0, random.integer(-4, 4) / 8.0, half + gap})};
         World world;
         add_solid(world, a), add_solid(world, b);
-        const Answers first = answers_of(world, 1), again = answers_of(world, 1);
+        const PlacedAnswers first = answers_of(world, 1), again = answers_of(world, 1);
         EXPECT_TRUE(first == again);
         EXPECT_EQ(first.collide, gap <= 0);
         EXPECT_EQ(first.has_depth, gap <= 0);
@@ -457,7 +457,7 @@ TEST(CurvedPlacements, AnswersDoNotDependOnEarlierQueries) {
         for (int step = 0; step < 4; ++step) {
             b.pose.translation = grid_offset(random);
             used.move(moving, b.pose);
-            const Answers found = answers_of(used, 1e3);
+            const PlacedAnswers found = answers_of(used, 1e3);
             EXPECT_TRUE(found == answers_of(a, b));
             EXPECT_TRUE(found == answers_of(used, 1e3));
             (found.collide ? met : apart) += 1;
@@ -487,7 +487,7 @@ TEST(CurvedPlacements, NormalsAreThoseOfTheSurfaces) {
                 {}, {random.uniform(0.3, 1), random.uniform(0.3, 1), random.uniform(0.3, 1)}};
         };
         const PlacedAnySolid a{ellipsoid(), random.pose(1)}, b{ellipsoid(), random.pose(1)};
-        const Answers found = answers_of(a, b);
+        const PlacedAnswers found = answers_of(a, b);
         ASSERT_EQ(found.gap.status, Status::exact);
         EXPECT_LT(length(normal_at(a, found.gap.point_a) - found.gap.normal), 1e-10);
         EXPECT_LT(length(normal_at(b, found.gap.point_b) + found.gap.normal), 1e-10);

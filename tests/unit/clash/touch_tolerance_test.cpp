@@ -157,8 +157,9 @@ TEST(TouchTolerance, KindsJustWithinAndJustBeyond) {
                     const auto expected = within ? c.within : c.beyond;
                     const auto clash = classified(a, b, t, place.world, place.world);
                     EXPECT_EQ(word_of(kind_of(clash)), word_of(expected)) << by / t;
-                    if (clash && clash->kind == hard)
+                    if (clash && clash->kind == hard) {
                         EXPECT_LT(clash->distance, -t) << by / t;
+                    }
                     EXPECT_EQ(word_of(kind_of(classified(b, a, t, place.world, place.world))),
                               word_of(expected))
                         << "exchanged, " << by / t;
@@ -251,8 +252,9 @@ TEST(TouchTolerance, SheetsThatReachBeyondABorder) {
                     for (const auto& clash : {classified(square, other, c.t, world, world),
                                               classified(other, square, c.t, world, world)}) {
                         ASSERT_EQ(word_of(kind_of(clash)), to_string(c.kind));
-                        if (c.kind == hard)
+                        if (c.kind == hard) {
                             EXPECT_LT(clash->distance, -c.t);
+                        }
                     }
             }
 }

@@ -125,10 +125,12 @@ TEST(Thickness, TolerancesNearTheThicknessAreDecided) {
                 const Proof proof =
                     nowhere_thicker(body.placed, around.placed, {factor * known.thickness});
                 EXPECT_NE(proof, Proof::open);
-                if (factor < 1 / (1 + 0x1p-6))
+                if (factor < 1 / (1 + 0x1p-6)) {
                     EXPECT_EQ(proof, Proof::fails);
-                if (factor > 1.001)
+                }
+                if (factor > 1.001) {
                     EXPECT_EQ(proof, Proof::holds);
+                }
             }
 }
 
