@@ -2,11 +2,13 @@
 
 #include "clash/blocks_pair.h"
 #include "geometry/triangle_triangle_distance.h"
+#include "rigid/model/solid.h"
 #include "rigid/tolerance/overlap_within.h"
 #include "rigid/tolerance/sheets_cross.h"
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <vector>
 
 namespace abut {
@@ -76,8 +78,41 @@ Proof overlaps_at_most(const WorldSolid& a, const WorldSolid& b, std::span<const
     return thin == Proof::holds ? shallow : thin;
 }
 
-/// Decides whether two surfaces that bound no solids cross only with their borders. If not, `depth`
-/// becomes at least what one goes beyond the other.
+/// The faces of a part that bound no solid, as those of open shells.
+class Sheets {
+public:
+    explicit Sheets(const WorldSolid& part) : part_(part) {}
+    bool hold(std::uint32_t triangle) {
+        if (!part_.bounds_solid())
+            return true;
+        if (part_.weight(triangle) != 0)
+            return false;
+        const auto [at, is_new] = known_.try_emplace(triangle, false);
+        if (is_new) {
+            const FaceProbe probe = face_probe(part_.world_triangle(triangle));
+            at->second = !part_.contains(probe.over) && !part_.contains(probe.under);
+        }
+        return at->second;
+    }
+
+private:
+    const WorldSolid& part_;
+    std::map<std::uint32_t, bool> known_; ///< by triangle
+};
+
+/// The contacts of faces that bound no solid.
+std::vector<Contact> contacts_of_sheets(const WorldSolid& a, const WorldSolid& b,
+                                        std::span<const Contact> contacts) {
+    std::vector<Contact> found;
+    Sheets of_a(a), of_b(b);
+    for (const Contact& contact : contacts)
+        if (of_a.hold(contact.pair.a) && of_b.hold(contact.pair.b))
+            found.push_back(contact);
+    return found;
+}
+
+/// Decides whether two surfaces cross only with their borders where both bound no solids. If not,
+/// `depth` becomes at least what one goes beyond the other.
 Proof cross_at_most(PartPair& pair, double touch, LocalPenetration& depth) {
     const WorldSolid &a = pair.a().solid(), &b = pair.b().solid();
     const Vec3 shift = sheet_shift(a, b);
@@ -89,6 +124,7 @@ Proof cross_at_most(PartPair& pair, double touch, LocalPenetration& depth) {
     const auto decide = [&](PartPair&& shifted) {
         std::vector<Contact> contacts;
         shifted.for_each_contact([&](const Contact& contact) { contacts.push_back(contact); });
+        contacts = contacts_of_sheets(a, b, contacts);
         if (contacts.empty())
             return Proof::holds;
         Vec3 found;
@@ -133,9 +169,11 @@ MeetingKind meeting_kind(PartPair& pair, std::span<const Contact> contacts, cons
     MeetingKind result{ClashKind::hard, depth_of(a, b, contacts, touch)};
     if (touch == 0)
         return result;
-    const Proof within = a.bounds_solid() || b.bounds_solid()
-                             ? overlaps_at_most(a, b, contacts, touch, result.penetration)
-                             : cross_at_most(pair, touch, result.penetration);
+    Proof within = Proof::holds;
+    if (a.bounds_solid() || b.bounds_solid())
+        within = overlaps_at_most(a, b, contacts, touch, result.penetration);
+    if (within != Proof::fails && !contacts_of_sheets(a, b, contacts).empty())
+        within = both_hold(within, cross_at_most(pair, touch, result.penetration));
     if (within != Proof::fails)
         result.kind = within == Proof::holds ? ClashKind::touch : ClashKind::undecided;
     return result;

@@ -70,6 +70,9 @@ private:
 
     /// Gives the strips around an edge of two faces, if the solid's angle there exceeds 180 degrees.
     void add_edge(const Side& s, const Side& t) {
+        // A face that was added both ways has no angle with itself.
+        if (s.apex == t.apex)
+            return;
         // Then the apex of each face lies outside of the other one.
         if (!(dot(t.apex - s.from, s.inward) < 0 || dot(s.apex - s.from, t.inward) < 0))
             return;

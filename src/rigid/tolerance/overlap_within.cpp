@@ -91,17 +91,17 @@ Answer all_points_pass(const WorldSolid& surface, const WorldSolid& solid,
 }
 
 /// Adds a face with its normal outward. If its weight does not tell which side is outside, points
-/// close to the face tell; if these do not tell either, the face is added both ways.
+/// close to the face tell: a face with the solid on neither side is touched by no ball in it, and one
+/// with the solid on both sides is added both ways.
 void add_turned_outward(const Triangle& face, int weight, const WorldSolid& solid,
                         std::vector<Triangle>& faces) {
     const Triangle turned{face[0], face[2], face[1]};
     if (weight != 0)
         return faces.push_back(weight < 0 ? turned : face);
     const FaceProbe probe = face_probe(face);
-    const bool over = solid.contains(probe.over), under = solid.contains(probe.under);
-    if (over == under || under)
+    if (solid.contains(probe.under))
         faces.push_back(face);
-    if (over == under || over)
+    if (solid.contains(probe.over))
         faces.push_back(turned);
 }
 

@@ -56,7 +56,9 @@ public:
         bool both_sides = false;
         /// No point over one of these planes is beyond: what polygons have there is left out.
         std::vector<CuttingPlane> bounds{};
-        std::uint32_t budget = 0; ///< pieces that may be examined, in all polygons together
+        /// Pieces that may be examined, in all polygons together. Each polygon adds 1/4096 of that, so
+        /// that surfaces of many faces are decided, too.
+        std::uint64_t budget = 0;
     };
     ReachSearch(const WorldSolid& solid, Options options)
         : solid_(solid), options_(std::move(options)),
@@ -114,7 +116,7 @@ private:
     const WorldSolid& solid_;
     const Options options_;
     const Box3 box_; ///< points outside of it are neither in the solid nor near it
-    std::uint32_t left_;
+    std::uint64_t left_;
     Proof proof_ = Proof::holds;
     Vec3 counterexample_;
     Piece last_; ///< the last that was examined: the next polygon is often near it

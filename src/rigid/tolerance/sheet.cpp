@@ -38,6 +38,22 @@ std::uint32_t Sheet::vertex_at(const Vec3& position) {
     return number;
 }
 
+std::vector<Sheet::Edge> Sheet::edges_of_faces() const {
+    std::vector<std::array<std::uint32_t, 3>> faces = corners_;
+    for (auto& face : faces)
+        std::sort(face.begin(), face.end());
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    std::vector<Edge> edges;
+    for (const auto& [p, q, r] : faces) {
+        edges.emplace_back(p, q);
+        edges.emplace_back(q, r);
+        edges.emplace_back(p, r);
+    }
+    std::sort(edges.begin(), edges.end());
+    return edges;
+}
+
 std::vector<std::uint32_t> Sheet::pieces_of(std::uint32_t number) const {
     std::vector<std::uint32_t> pieces{number};
     if (const auto more = more_pieces_.find(number); more != more_pieces_.end())

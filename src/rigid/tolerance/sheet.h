@@ -30,6 +30,8 @@ public:
     [[nodiscard]] Edge edge(std::uint32_t i, std::size_t k) const {
         return std::minmax(corners_[i][k], corners_[i][(k + 1) % 3]);
     }
+    /// The edges of all triangles, sorted. Triangles of the same vertices count once.
+    [[nodiscard]] std::vector<Edge> edges_of_faces() const;
     /// The triangles that stand for a triangle of the surface: itself, or its pieces.
     [[nodiscard]] std::vector<std::uint32_t> pieces_of(std::uint32_t number) const;
 

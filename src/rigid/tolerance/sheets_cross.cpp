@@ -24,11 +24,7 @@ constexpr double kSlitWidth = 4;
 /// The edges of a sheet that belong to one triangle only and pass through the other one.
 std::vector<BorderCrossing> border_crossings(std::span<const SheetContact> contacts,
                                              const Sheet& own, const Sheet& other) {
-    std::vector<Sheet::Edge> edges;
-    for (std::uint32_t i = 0; i < own.triangles(); ++i)
-        for (std::size_t k = 0; k < 3; ++k)
-            edges.push_back(own.edge(i, k));
-    std::sort(edges.begin(), edges.end());
+    const std::vector<Sheet::Edge> edges = own.edges_of_faces();
     std::vector<BorderCrossing> crossings;
     for (const SheetContact& c : contacts) {
         const Triangle &t = own.triangle(c.own), &u = other.triangle(c.other);

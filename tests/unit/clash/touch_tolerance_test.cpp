@@ -270,6 +270,22 @@ TEST(TouchTolerance, ANarrowStripThroughASheetIsHard) {
     EXPECT_EQ(word_of(kind_of(classified(along, strip, t))), "touch");
 }
 
+TEST(TouchTolerance, SheetsOfPartsThatAlsoHoldSolids) {
+    // The solids are elsewhere. Each face of the second part is there twice, once for each side.
+    const double t = 1e-3;
+    for (const double reach : {0.5 * t, 2 * t}) {
+        const Mesh sheet = sheet_mesh(-reach, 1, 3), floor = floor_mesh(4);
+        const Mesh first = joined(sheet, box_mesh({8, 0, 0}, {9, 1, 1})),
+                   second =
+                       joined(joined(floor, reversed(floor)), box_mesh({-9, 0, 0}, {-8, 1, 1}));
+        const std::string expected = reach < t ? "touch" : "hard";
+        EXPECT_EQ(word_of(kind_of(classified(first, second, t))), expected);
+        EXPECT_EQ(word_of(kind_of(classified(second, first, t))), expected);
+        EXPECT_EQ(word_of(kind_of(classified(first, floor, t))), expected);
+        EXPECT_EQ(word_of(kind_of(classified(sheet, second, t))), expected);
+    }
+}
+
 TEST(TouchTolerance, PartsOfWhichOneShellIsInside) {
     const Mesh block = box_mesh({0, 0, 0}, {2, 2, 2});
     const Mesh two = joined(box_mesh({0.5, 0.5, 0.5}, {1, 1, 1}), box_mesh({3, 0, 0}, {4, 1, 1}));
