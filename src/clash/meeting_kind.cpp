@@ -78,19 +78,20 @@ Proof overlaps_at_most(const WorldSolid& a, const WorldSolid& b, std::span<const
     return thin == Proof::holds ? shallow : thin;
 }
 
-/// The faces of a part that bound no solid, as those of open shells.
+/// The faces of a part that bound no solid, as those of open shells, or of two shells that are the same
+/// but for their sides.
 class Sheets {
 public:
     explicit Sheets(const WorldSolid& part) : part_(part) {}
     bool hold(std::uint32_t triangle) {
         if (!part_.bounds_solid())
             return true;
-        if (part_.weight(triangle) != 0)
-            return false;
         const auto [at, is_new] = known_.try_emplace(triangle, false);
         if (is_new) {
             const FaceProbe probe = face_probe(part_.world_triangle(triangle));
-            at->second = !part_.contains(probe.over) && !part_.contains(probe.under);
+            const bool turned = part_.weight(triangle) < 0;
+            at->second = !part_.contains(turned ? probe.over : probe.under) &&
+                         !part_.contains(turned ? probe.under : probe.over);
         }
         return at->second;
     }

@@ -85,10 +85,13 @@ TEST(FindClashes, Contained) {
     ASSERT_TRUE(near);
     EXPECT_EQ(near->kind, ClashKind::clearance);
     EXPECT_EQ(near->distance, 0.25);
-    // One component is inside and one outside, and the surfaces do not meet: not contained.
-    EXPECT_FALSE(clash_of(joined(kBox, box_mesh({5, 0, 0}, {6, 1, 1})),
-                          joined(box_mesh({0.25, 0.25, 0.25}, {0.5, 0.5, 0.5}),
-                                 box_mesh({3, 0.25, 0.25}, {3.5, 0.5, 0.5}))));
+    // One component is inside and one outside, and the surfaces do not meet.
+    const auto partly = clash_of(joined(kBox, box_mesh({5, 0, 0}, {6, 1, 1})),
+                                 joined(box_mesh({0.25, 0.25, 0.25}, {0.5, 0.5, 0.5}),
+                                        box_mesh({3, 0.25, 0.25}, {3.5, 0.5, 0.5})));
+    ASSERT_TRUE(partly);
+    EXPECT_EQ(partly->kind, ClashKind::hard);
+    EXPECT_EQ(partly->distance, -0.25);
 }
 
 /// A part whose shells overlap is their union: what lies across a face inside is contained.
