@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace abut {
@@ -128,12 +129,12 @@ Proof cross_at_most(PartPair& pair, double touch, LocalPenetration& depth) {
         contacts = contacts_of_sheets(a, b, contacts);
         if (contacts.empty())
             return Proof::holds;
-        Vec3 found;
+        std::optional<Vec3> found;
         const Proof proof =
             sheets_cross_at_most(shifted.a().solid(), shifted.b().solid(), contacts, touch, &found);
-        if (const LocalPenetration beyond = depth_at(a, b, found);
-            proof == Proof::fails && depth.depth < beyond.depth)
-            depth = beyond;
+        if (proof == Proof::fails && found)
+            if (const LocalPenetration beyond = depth_at(a, b, *found); depth.depth < beyond.depth)
+                depth = beyond;
         return proof;
     };
     return of_a.blocks != nullptr || of_b.blocks != nullptr ? decide(BlocksPair(of_a, moved))

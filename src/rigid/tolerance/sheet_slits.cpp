@@ -12,11 +12,10 @@ namespace {
 
 constexpr std::size_t kMostSlits = 1000;
 
-/// The plane of a slit, and how far it reaches.
+/// A slit lies in a plane, and reaches as far from a point in it as is wanted.
 struct Slit {
     Vec3 at;      ///< where the border passes through the surface
-    Vec3 outward; ///< unit vector in the other surface, away from it at the border
-    Vec3 normal;  ///< unit vector, of the other surface
+    Vec3 outward; ///< unit normal of the plane, away from the other surface at its border
 };
 
 /// The point of a side in a plane. The same for both directions of the side.
@@ -52,16 +51,24 @@ void keep(const FacePolygon& polygon, std::vector<FacePolygon>& pieces) {
         pieces.push_back({polygon[0], polygon[k - 1], polygon[k]});
 }
 
-/// Cuts one slit into a piece.
-void cut_slit(const FacePolygon& piece, const Slit& slit, double tolerance, double width,
-              std::vector<FacePolygon>& pieces) {
-    const CutPolygon top = divide(piece, {slit.at + tolerance * slit.normal, slit.normal});
-    keep(top.outside, pieces);
-    const CutPolygon bottom = divide(top.inside, {slit.at - tolerance * slit.normal, -slit.normal});
-    keep(bottom.outside, pieces);
-    const Vec3 half = 0.5 * width * slit.outward;
-    keep(divide(bottom.inside, {slit.at - half, slit.outward}).inside, pieces);
-    keep(divide(bottom.inside, {slit.at + half, slit.outward}).outside, pieces);
+/// Cuts one slit into a piece of a triangle: the points of the slit that are within `reach` of its
+/// middle. So of two triangles at an edge, both are cut where one is.
+void cut_slit(const FacePolygon& piece, const Vec3& normal, const Slit& slit, double reach,
+              double width, std::vector<FacePolygon>& pieces) {
+    const Vec3 along = normalized_or_zero(cross(normal, slit.outward)),
+               across = cross(slit.outward, along);
+    const double slope = dot(across, normal);
+    const double aside = slope == 0 ? reach : dot(piece[0] - slit.at, normal) / slope;
+    if (along == Vec3{} || !(std::abs(aside) < reach))
+        return keep(piece, pieces);
+    const double half = std::sqrt(reach * reach - aside * aside);
+    const CutPolygon first = divide(piece, {slit.at + half * along, along});
+    keep(first.outside, pieces);
+    const CutPolygon last = divide(first.inside, {slit.at - half * along, -along});
+    keep(last.outside, pieces);
+    const Vec3 edge = 0.5 * width * slit.outward;
+    keep(divide(last.inside, {slit.at - edge, slit.outward}).inside, pieces);
+    keep(divide(last.inside, {slit.at + edge, slit.outward}).outside, pieces);
 }
 
 Slit slit_of(const BorderCrossing& crossing, const Sheet& sheet) {
@@ -71,25 +78,27 @@ Slit slit_of(const BorderCrossing& crossing, const Sheet& sheet) {
     const double at_p = dot(p - u[0], across), at_q = dot(q - u[0], across);
     const Vec3 normal = normalized_or_zero(cross(t[1] - t[0], t[2] - t[0]));
     const double share = at_p == at_q ? 0.5 : std::clamp(at_p / (at_p - at_q), 0.0, 1.0);
-    return {p + share * (q - p), normalized_or_zero(cross(q - p, normal)), normal};
+    return {p + share * (q - p), normalized_or_zero(cross(q - p, normal))};
 }
 
 } // namespace
 
 void cut_slits(Sheet& sheet, std::span<const BorderCrossing> crossings, double tolerance,
                double width) {
+    // Where the surfaces cross at 30 degrees, what goes beyond by the tolerance is twice as long.
+    const double reach = 2 * tolerance + width;
     const std::size_t count = sheet.triangles();
     std::vector<Slit> slits;
     for (const BorderCrossing& crossing : crossings.first(std::min(kMostSlits, crossings.size())))
-        if (const Slit slit = slit_of(crossing, sheet);
-            slit.outward != Vec3{} && slit.normal != Vec3{})
+        if (const Slit slit = slit_of(crossing, sheet); slit.outward != Vec3{})
             slits.push_back(slit);
     for (std::uint32_t i = 0; i < count; ++i) {
         const Triangle t = sheet.triangle(i);
         Box3 box;
         for (const Vec3& corner : t)
             extend(box, corner);
-        const Box3 near = grown(box, tolerance + width);
+        const Box3 near = grown(box, reach);
+        const Vec3 normal = normalized_or_zero(cross(t[1] - t[0], t[2] - t[0]));
         std::vector<FacePolygon> pieces;
         for (const Slit& slit : slits) {
             if (!encloses(near, {slit.at, slit.at}))
@@ -98,7 +107,7 @@ void cut_slits(Sheet& sheet, std::span<const BorderCrossing> crossings, double t
                 pieces.push_back({t[0], t[1], t[2]});
             std::vector<FacePolygon> divided;
             for (const FacePolygon& piece : pieces)
-                cut_slit(piece, slit, tolerance + width, width, divided);
+                cut_slit(piece, normal, slit, reach, width, divided);
             pieces = std::move(divided);
         }
         if (!pieces.empty())

@@ -10,8 +10,8 @@ namespace abut {
 /// Cuts slits into one of two crossing surfaces where the other one's border passes through it. So
 /// what lies beyond the other surface no longer hangs together with what lies beside its border.
 ///
-/// A slit lies in the plane through the border's edge, upright to the other surface. It reaches as
-/// far as the tolerance to both sides of that surface.
+/// A slit lies in the plane through the border's edge, upright to the other surface. It reaches twice
+/// the tolerance to both sides.
 ///
 /// In          crossings: pairs of a border edge's triangle of `other` and a triangle of `sheet` that
 ///             the edge passes through; edge: the edge's first corner in that triangle. `width`:

@@ -1,6 +1,7 @@
 #include "rigid/tolerance/sheets_cross.h"
 
 #include "geometry/triangle_triangle_intersect.h"
+#include "geometry/triangle_triangle_segment.h"
 #include "rigid/penetration/local_penetration.h"
 #include "rigid/tolerance/sheet_parts.h"
 #include "rigid/tolerance/sheet_slits.h"
@@ -20,6 +21,8 @@ constexpr std::uint32_t kBudget = 20'000;
 
 /// The width of a slit, as a multiple of the length by which one sheet is moved.
 constexpr double kSlitWidth = 4;
+/// A curve that is not longer than this many slits are wide may be there only because of the shift.
+constexpr double kTinyCurve = 4;
 
 /// The edges of a sheet that belong to one triangle only and pass through the other one.
 std::vector<BorderCrossing> border_crossings(std::span<const SheetContact> contacts,
@@ -99,8 +102,19 @@ private:
                     curves_.unite(crossings[i].contact, crossings[i - 1].contact);
             }
         }
-        for (const std::uint32_t contact : crossed)
-            ends_[curves_.root(contact)] = {};
+        // Sheets that only touch at a point cross there once they are shifted.
+        std::map<std::uint32_t, Box3> extent;
+        for (const std::uint32_t contact : crossed) {
+            const SheetContact& c = contacts_[0][contact];
+            const Intersection common =
+                triangle_triangle_segment(sheets_[0].triangle(c.own), sheets_[1].triangle(c.other));
+            Box3& box = extent[curves_.root(contact)];
+            for (std::size_t k = 0; k < common.count; ++k)
+                extend(box, common.corners[k]);
+        }
+        for (const auto& [curve, box] : extent)
+            if (max_abs(box.upper - box.lower) > kTinyCurve * slit_width_)
+                ends_[curve] = {};
     }
 
     /// Decides by curve whether one sheet ends near the other one, which is `surface`.
@@ -112,7 +126,10 @@ private:
         SheetParts parts(own, other, contacts_of_pieces(contacts_[side], own, other), surface,
                          options_);
         for (const SheetCrossing& c : parts.crossings()) {
-            std::optional<Proof>& known = ends_[curves_.root(c.contact)][side];
+            const auto curve = ends_.find(curves_.root(c.contact));
+            if (curve == ends_.end())
+                continue;
+            std::optional<Proof>& known = curve->second[side];
             known = both_hold(known.value_or(Proof::holds), parts.ends_at(c));
         }
         if (const auto& beyond = parts.beyond();
@@ -133,7 +150,8 @@ private:
 } // namespace
 
 Proof sheets_cross_at_most(const WorldSolid& a, const WorldSolid& b,
-                           std::span<const Contact> contacts, double tolerance, Vec3* found) {
+                           std::span<const Contact> contacts, double tolerance,
+                           std::optional<Vec3>* found) {
     const SheetPair pair(a, b, contacts, tolerance);
     if (found != nullptr && pair.beyond())
         *found = pair.beyond()->point;

@@ -4,6 +4,7 @@
 #include "rigid/solid/world_solid.h"
 #include "rigid/tolerance/reach_search.h"
 
+#include <optional>
 #include <span>
 
 namespace abut {
@@ -23,7 +24,7 @@ namespace abut {
 /// Cost        O(n log n) for surfaces of n triangles, and a search for each part beyond a curve.
 Proof sheets_cross_at_most(const WorldSolid& a, const WorldSolid& b,
                            std::span<const Contact> contacts, double tolerance,
-                           Vec3* found = nullptr);
+                           std::optional<Vec3>* found = nullptr);
 
 /// Returns a vector by which one of two surfaces is moved, so that their vertices and edges are in
 /// general position: 2^-40 of the pair's size, in a fixed direction.

@@ -259,6 +259,35 @@ TEST(TouchTolerance, SheetsThatReachBeyondABorder) {
             }
 }
 
+TEST(TouchTolerance, SheetsThatMeetAtPoints) {
+    // A wall between two strips meets them at one point each.
+    const Mesh strips = joined(flat_sheet({0, -0.5, 0}, {1, 0, 0}, {0, 1, 0}, 1, 1),
+                               flat_sheet({2, -0.5, 0}, {1, 0, 0}, {0, 1, 0}, 1, 1)),
+               between = flat_sheet({1, 0, -0.25}, {1, 0, 0}, {0, 0, 1}, 1, 1);
+    for (const Transform& world : {Transform{}, Transform(Pose{{1000, 0, 0}, {1, 0, 0, 0}}),
+                                   Transform(Pose{{3, -2, 5}, {0.8, 0.1, -0.5, 0.3}})})
+        for (const auto& clash : {classified(strips, between, 0.01, world, world),
+                                  classified(between, strips, 0.01, world, world)}) {
+            ASSERT_TRUE(clash);
+            EXPECT_EQ(to_string(clash->kind), "touch");
+            EXPECT_NEAR(clash->distance, 0, 1e-9);
+        }
+}
+
+TEST(TouchTolerance, LinesOfAMeshAreNoBorder) {
+    // The lower corner goes 0.05 below the floor, whose mesh has a line close to the curve.
+    const Mesh aslant = flat_sheet({0.3, -0.05, -0.05}, {0.5, 0, 0}, {0, 0.75, 0.75}, 1, 1);
+    for (const double line : {0.05, 0.0625, 0.2}) {
+        Mesh floor = joined(flat_sheet({-1, -1, 0}, {2, 0, 0}, {0, 1 + line, 0}, 1, 1),
+                            flat_sheet({-1, line, 0}, {2, 0, 0}, {0, 1 - line, 0}, 1, 1));
+        for (const double t : {0.0445, 0.045, 0.0499}) {
+            EXPECT_EQ(word_of(kind_of(classified(floor, aslant, t))), "hard") << line << " " << t;
+            EXPECT_EQ(word_of(kind_of(classified(aslant, floor, t))), "hard") << line << " " << t;
+        }
+        EXPECT_EQ(word_of(kind_of(classified(floor, aslant, 0.06))), "touch") << line;
+    }
+}
+
 TEST(TouchTolerance, ANarrowStripThroughASheetIsHard) {
     const double t = 0.02;
     const Mesh strip = flat_sheet({-1, -0.005, 0}, {2, 0, 0}, {0, 0.01, 0}, 3, 1),
