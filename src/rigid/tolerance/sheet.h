@@ -22,6 +22,11 @@ public:
     [[nodiscard]] std::size_t vertices() const { return positions_.size(); }
     [[nodiscard]] std::size_t triangles() const { return triangles_.size(); }
     [[nodiscard]] const Triangle& triangle(std::uint32_t i) const { return triangles_[i]; }
+    [[nodiscard]] const Vec3& position(std::uint32_t vertex) const { return positions_[vertex]; }
+    /// The first of the vertices that only pieces have.
+    [[nodiscard]] std::uint32_t first_new_vertex() const {
+        return static_cast<std::uint32_t>(sorted_);
+    }
     /// The vertices of a triangle.
     [[nodiscard]] const std::array<std::uint32_t, 3>& corners(std::uint32_t i) const {
         return corners_[i];

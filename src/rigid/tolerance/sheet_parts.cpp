@@ -40,16 +40,58 @@ SheetParts::SheetParts(const Sheet& own, const Sheet& other, std::vector<SheetCo
     : own_(own), other_(other), contacts_(sorted(std::move(contacts))),
       origin_(other.triangle(0)[0]), seen_(surface.seen_from(origin_)), options_(options),
       crossings_(crossings_in(contacts_, own, other)), sets_(own.vertices()) {
-    const auto is_crossed = [&](const Sheet::Edge& edge) {
-        const auto at = std::lower_bound(
-            crossings_.begin(), crossings_.end(), edge,
-            [](const SheetCrossing& c, const Sheet::Edge& e) { return c.edge < e; });
-        return at != crossings_.end() && at->edge == edge;
-    };
-    for (std::uint32_t i = 0; i < own.triangles(); ++i)
+    unite_along_edges();
+    unite_on_edges();
+}
+
+bool SheetParts::is_crossed(const Sheet::Edge& edge) const {
+    const auto at =
+        std::lower_bound(crossings_.begin(), crossings_.end(), edge,
+                         [](const SheetCrossing& c, const Sheet::Edge& e) { return c.edge < e; });
+    return at != crossings_.end() && at->edge == edge;
+}
+
+void SheetParts::unite_along_edges() {
+    for (std::uint32_t i = 0; i < own_.triangles(); ++i)
         for (std::size_t k = 0; k < 3; ++k)
-            if (const Sheet::Edge e = own.edge(i, k); !is_crossed(e))
+            if (const Sheet::Edge e = own_.edge(i, k); !is_crossed(e))
                 sets_.unite(e.first, e.second);
+}
+
+/// Returns whether a segment crosses the other sheet.
+bool SheetParts::crosses(const Vec3& p, const Vec3& q) const {
+    return std::ranges::any_of(contacts_, [&](const SheetContact& c) {
+        const Triangle& t = other_.triangle(c.other);
+        return projection_axis(t) >= 0 && segment_triangle_intersect(p, q, t);
+    });
+}
+
+/// Connects vertices of pieces with the ends of the edges on which they lie.
+void SheetParts::unite_on_edges() {
+    // Positions of vertices are rounded far less than the other sheet was moved.
+    const double off = 0.25 * options_.rounding;
+    for (std::uint32_t v = own_.first_new_vertex(); v < own_.vertices(); ++v) {
+        const Vec3& at = own_.position(v);
+        for (std::uint32_t i = 0; i < own_.triangles(); ++i) {
+            const Triangle& t = own_.triangle(i);
+            Box3 box;
+            for (const Vec3& corner : t)
+                extend(box, corner);
+            if (!encloses(grown(box, off), {at, at}))
+                continue;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Vec3 &p = t[k], &q = t[(k + 1) % 3];
+                const Vec3 along = normalized_or_zero(q - p);
+                if (dot(at - p, along) <= 0 || dot(q - at, along) <= 0 ||
+                    length(cross(at - p, along)) > off)
+                    continue;
+                if (!crosses(at, p))
+                    sets_.unite(v, own_.corners(i)[k]);
+                if (!crosses(at, q))
+                    sets_.unite(v, own_.corners(i)[(k + 1) % 3]);
+            }
+        }
+    }
 }
 
 Proof SheetParts::ends_at(const SheetCrossing& crossing) {

@@ -32,7 +32,8 @@ std::vector<SheetCrossing> crossings_in(std::span<const SheetContact> contacts, 
                                         const Sheet& other);
 
 /// The parts into which a sheet falls along the curves in which it crosses another one: vertices that
-/// are connected by edges which do not cross it. Decides which of them are near the other sheet.
+/// are connected by edges which do not cross it. A vertex of a piece may lie on an edge of another
+/// piece. Decides which parts are near the other sheet.
 class SheetParts {
 public:
     /// In      contacts: all. surface: that of `other`. options: as everywhere_near().
@@ -52,6 +53,10 @@ public:
     [[nodiscard]] const std::optional<Beyond>& beyond() const { return beyond_; }
 
 private:
+    void unite_along_edges();
+    void unite_on_edges();
+    [[nodiscard]] bool is_crossed(const Sheet::Edge& edge) const;
+    [[nodiscard]] bool crosses(const Vec3& p, const Vec3& q) const;
     [[nodiscard]] std::span<const std::uint32_t> triangles_of(std::uint32_t part);
     Proof is_near(std::uint32_t vertex);
     Proof examine(std::uint32_t part);
