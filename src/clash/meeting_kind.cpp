@@ -174,7 +174,8 @@ MeetingKind meeting_kind(PartPair& pair, std::span<const Contact> contacts, cons
     Proof within = Proof::holds;
     if (a.bounds_solid() || b.bounds_solid())
         within = overlaps_at_most(a, b, contacts, touch, result.penetration);
-    if (within != Proof::fails && !contacts_of_sheets(a, b, contacts).empty())
+    if (within != Proof::fails && meeting.interpenetrate &&
+        !contacts_of_sheets(a, b, contacts).empty())
         within = both_hold(within, cross_at_most(pair, touch, result.penetration));
     if (within != Proof::fails)
         result.kind = within == Proof::holds ? ClashKind::touch : ClashKind::undecided;
