@@ -83,10 +83,13 @@ Proof overlaps_at_most(const WorldSolid& a, const WorldSolid& b, std::span<const
 /// but for their sides.
 class Sheets {
 public:
-    explicit Sheets(const WorldSolid& part) : part_(part) {}
+    explicit Sheets(const WorldSolid& part)
+        : part_(part), is_one_shell_(part.closed() && part.component_points().size() == 1) {}
     bool hold(std::uint32_t triangle) {
         if (!part_.bounds_solid())
             return true;
+        if (is_one_shell_ && part_.weight(triangle) != 0)
+            return false;
         const auto [at, is_new] = known_.try_emplace(triangle, false);
         if (is_new) {
             const FaceProbe probe = face_probe(part_.world_triangle(triangle));
@@ -99,6 +102,7 @@ public:
 
 private:
     const WorldSolid& part_;
+    const bool is_one_shell_;             ///< so a face with a weight bounds the solid
     std::map<std::uint32_t, bool> known_; ///< by triangle
 };
 
