@@ -86,6 +86,7 @@ double distance_of(ClashKind kind, double share) {
         return 0.05 * share;
     case ClashKind::touch:
     case ClashKind::duplicate:
+    case ClashKind::undecided:
         break;
     }
     return 0;
