@@ -12,6 +12,7 @@
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
@@ -57,13 +58,13 @@ void add_values(pugi::xml_node node, const std::string& path, std::map<std::stri
     for (const pugi::xml_attribute attribute : node.attributes()) {
         const std::string name = attribute.name();
         if (!name.starts_with("xmlns") && !name.starts_with("xsi:") && *attribute.value() != '\0')
-            ++values[path + "@" + name + "=" + value_of(attribute.value())];
+            ++values[fmt::format("{}@{}={}", path, name, value_of(attribute.value()))];
     }
     for (const pugi::xml_node child : node.children()) {
         if (child.type() == pugi::node_element)
-            add_values(child, path + "/" + child.name(), values);
+            add_values(child, fmt::format("{}/{}", path, child.name()), values);
         else if (const std::string text = value_of(child.value()); !text.empty())
-            ++values[path + "=" + text];
+            ++values[fmt::format("{}={}", path, text)];
     }
 }
 
@@ -71,7 +72,7 @@ std::map<std::string, int> values_of(const std::string& xml) {
     pugi::xml_document document;
     EXPECT_TRUE(document.load_buffer(xml.data(), xml.size()));
     std::map<std::string, int> values;
-    add_values(document, "", values);
+    add_values(document.root(), "", values);
     return values;
 }
 
@@ -206,8 +207,8 @@ std::string complaints(const std::string& bytes, const std::string& version) {
             continue;
         const std::string file = folder / "file.xml";
         std::ofstream(file, std::ios::binary) << entry.bytes;
-        const std::string command = "xmllint --noout --schema " + kData + "schemas-" + version +
-                                    "/" + schema + ".xsd " + file + " 2>&1";
+        const std::string command = fmt::format(
+            "xmllint --noout --schema {}schemas-{}/{}.xsd {} 2>&1", kData, version, schema, file);
         FILE* pipe = popen(command.c_str(), "r"); // NOLINT(cert-env33-c)
         std::string text;
         std::array<char, 4096> chunk{};

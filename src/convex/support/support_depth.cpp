@@ -56,6 +56,12 @@ Vec3 make_tetrahedron(const SupportPair& pair, SupportSimplex& simplex) {
     return {};
 }
 
+/// The memory of polytopes, for all searches of a thread in turn.
+GrowingPolytope& kept_polytope() {
+    static thread_local GrowingPolytope polytope;
+    return polytope;
+}
+
 /// EPA, step by step.
 class DepthSearch {
 public:
@@ -146,13 +152,11 @@ private:
     const SupportPair& pair_;
     double enough_;
     std::size_t most_points_;
-    static thread_local GrowingPolytope polytope_;
+    GrowingPolytope& polytope_ = kept_polytope();
     double best_ = kUnbounded, at_least_ = -kUnbounded;
     Vec3 outward_;
     bool on_boundary_ = false;
 };
-
-thread_local GrowingPolytope DepthSearch::polytope_;
 
 } // namespace
 

@@ -144,8 +144,7 @@ void FaceFragments::find_layers() {
             });
         }
         std::ranges::sort(layer_[f]);
-        const auto repeated = std::ranges::unique(layer_[f]);
-        layer_[f].erase(repeated.begin(), repeated.end());
+        layer_[f].erase(std::unique(layer_[f].begin(), layer_[f].end()), layer_[f].end());
     }
 }
 

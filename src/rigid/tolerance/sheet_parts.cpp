@@ -150,7 +150,8 @@ bool SheetParts::add_beyond_curve(std::uint32_t triangle, const std::vector<Vec3
                                   ReachSearch& search) const {
     const Triangle& t = own_.triangle(triangle);
     const auto [first, last] =
-        std::ranges::equal_range(contacts_, triangle, {}, &SheetContact::own);
+        std::equal_range(contacts_.begin(), contacts_.end(), SheetContact{triangle, 0, 0},
+                         [](const auto& c, const auto& d) { return c.own < d.own; });
     if (first == last) // crossed only since the shift
         return add(t[0], t[1], t[2], search);
     for (auto at = first; at != last; ++at) {

@@ -128,9 +128,7 @@ std::set<Ids> places_directly(std::vector<Pair>& left, double reach) {
     std::set<std::string> gone;
     std::set<Ids> result;
     while (!left.empty()) {
-        std::vector<Pair> keys;
-        for (const Pair& pair : left)
-            keys.push_back(pair);
+        const std::vector<Pair> keys = left;
         // One step at a time, since a centre must still be there.
         const Pair* best = nullptr;
         std::size_t most = 0;
@@ -327,7 +325,7 @@ TEST(ClashGroups, JoinTheNearestEarlierPlace) {
         options.by = {GroupBy::place};
         options.reach = 0.5 * random.integer(1, 8);
         for (int i = random.integer(0, 200); i > 0; --i)
-            options.earlier.push_back({clash_id_text(static_cast<std::uint64_t>(1000 + i * 7919)),
+            options.earlier.push_back({clash_id_text(1000 + 7919 * static_cast<std::uint64_t>(i)),
                                        {},
                                        "place",
                                        GroupKind::place,
