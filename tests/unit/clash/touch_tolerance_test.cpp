@@ -269,7 +269,7 @@ TEST(TouchTolerance, SheetsThatMeetAtPoints) {
         for (const auto& clash : {classified(strips, between, 0.01, world, world),
                                   classified(between, strips, 0.01, world, world)}) {
             ASSERT_TRUE(clash);
-            EXPECT_EQ(to_string(clash->kind), "touch");
+            EXPECT_EQ(clash->kind, touch);
             EXPECT_NEAR(clash->distance, 0, 1e-9);
         }
 }
@@ -321,7 +321,7 @@ TEST(TouchTolerance, PartsOfWhichOneShellIsInside) {
     for (const double t : {0.0, 1e-3}) {
         const auto clash = classified(block, two, t);
         ASSERT_TRUE(clash);
-        EXPECT_EQ(to_string(clash->kind), "hard");
+        EXPECT_EQ(clash->kind, hard);
         EXPECT_LE(clash->distance, -0.5);
         EXPECT_NEAR(clash->volume, 0.125, 1e-6);
         EXPECT_EQ(word_of(kind_of(classified(two, block, t))), "hard");
