@@ -2,7 +2,6 @@
 
 #include "clash/blocks_pair.h"
 #include "geometry/triangle_triangle_distance.h"
-#include "rigid/model/solid.h"
 #include "rigid/tolerance/overlap_within.h"
 #include "rigid/tolerance/sheets_cross.h"
 
@@ -84,42 +83,69 @@ Proof overlaps_at_most(const WorldSolid& a, const WorldSolid& b, std::span<const
 class Sheets {
 public:
     explicit Sheets(const WorldSolid& part)
-        : part_(part), is_one_shell_(part.closed() && part.component_points().size() == 1) {}
+        : part_(part), step_(kThinnest * (part.world_size() + max_abs(part.middle()))) {}
     bool hold(std::uint32_t triangle) {
         if (!part_.bounds_solid())
             return true;
-        if (is_one_shell_ && part_.weight(triangle) != 0)
-            return false;
         const auto [at, is_new] = known_.try_emplace(triangle, false);
-        if (is_new) {
-            const FaceProbe probe = face_probe(part_.world_triangle(triangle));
-            const bool turned = part_.weight(triangle) < 0;
-            at->second = !part_.contains(turned ? probe.over : probe.under) &&
-                         !part_.contains(turned ? probe.under : probe.over);
-        }
+        if (is_new)
+            at->second = bounds_nothing(triangle);
         return at->second;
     }
 
 private:
+    [[nodiscard]] bool bounds_nothing(std::uint32_t triangle) const {
+        const Triangle t = part_.world_triangle(triangle);
+        const Vec3 centre = (1.0 / 3) * (t[0] + t[1] + t[2]),
+                   normal = normalized_or_zero(cross(t[1] - t[0], t[2] - t[0]));
+        const int weight = part_.weight(triangle);
+        const Vec3 outward = (weight < 0 ? -step_ : step_) * normal;
+        const Vec3 over = centre + outward, under = centre - outward;
+        if (weight != 0 && !has_another(triangle, {min(over, under), max(over, under)}))
+            return false;
+        return !part_.contains(under) && !part_.contains(over);
+    }
+
+    /// Returns whether the box of another triangle meets a box. If not, the solid lies under the face.
+    [[nodiscard]] bool has_another(std::uint32_t triangle, const Box3& box) const {
+        bool found = false;
+        part_.for_each_block(box, [&](const WorldSolid::Block& block) {
+            block.model.for_each_overlap(box, [&](std::uint32_t slot) {
+                if (found || block.number(block.model.data().triangle_at(slot)) == triangle)
+                    return;
+                const Triangle t = block.model.world_slot(slot);
+                found = overlap(box, {min(t[0], min(t[1], t[2])), max(t[0], max(t[1], t[2]))});
+            });
+            return !found;
+        });
+        return found;
+    }
+
+    /// Thinner shells bound nothing: some hundred roundings of their positions.
+    static constexpr double kThinnest = 0x1p-44;
+
     const WorldSolid& part_;
-    const bool is_one_shell_;             ///< so a face with a weight bounds the solid
+    const double step_;                   ///< from a face to the points beside it
     std::map<std::uint32_t, bool> known_; ///< by triangle
 };
 
-/// The contacts of faces that bound no solid.
-std::vector<Contact> contacts_of_sheets(const WorldSolid& a, const WorldSolid& b,
-                                        std::span<const Contact> contacts) {
-    std::vector<Contact> found;
-    Sheets of_a(a), of_b(b);
-    for (const Contact& contact : contacts)
-        if (of_a.hold(contact.pair.a) && of_b.hold(contact.pair.b))
-            found.push_back(contact);
-    return found;
-}
+/// The sheets of two parts.
+class SheetsOfPair {
+public:
+    SheetsOfPair(const WorldSolid& a, const WorldSolid& b) : of_a_(a), of_b_(b) {}
+
+    /// Whether both faces of a contact bound no solid.
+    bool have(const Contact& contact) {
+        return of_a_.hold(contact.pair.a) && of_b_.hold(contact.pair.b);
+    }
+
+private:
+    Sheets of_a_, of_b_;
+};
 
 /// Decides whether two surfaces cross only with their borders where both bound no solids. If not,
 /// `depth` becomes at least what one goes beyond the other.
-Proof cross_at_most(PartPair& pair, double touch, LocalPenetration& depth) {
+Proof cross_at_most(PartPair& pair, SheetsOfPair& sheets, double touch, LocalPenetration& depth) {
     const WorldSolid &a = pair.a().solid(), &b = pair.b().solid();
     const Vec3 shift = sheet_shift(a, b);
     const ClashPart &of_a = pair.a().part(), &of_b = pair.b().part();
@@ -129,8 +155,10 @@ Proof cross_at_most(PartPair& pair, double touch, LocalPenetration& depth) {
     const ClashPart moved{of_b.model, of_b.blocks, world, box};
     const auto decide = [&](PartPair&& shifted) {
         std::vector<Contact> contacts;
-        shifted.for_each_contact([&](const Contact& contact) { contacts.push_back(contact); });
-        contacts = contacts_of_sheets(a, b, contacts);
+        shifted.for_each_contact([&](const Contact& contact) {
+            if (sheets.have(contact))
+                contacts.push_back(contact);
+        });
         if (contacts.empty())
             return Proof::holds;
         std::optional<Vec3> found;
@@ -178,9 +206,10 @@ MeetingKind meeting_kind(PartPair& pair, std::span<const Contact> contacts, cons
     Proof within = Proof::holds;
     if (a.bounds_solid() || b.bounds_solid())
         within = overlaps_at_most(a, b, contacts, touch, result.penetration);
+    SheetsOfPair sheets(a, b);
     if (within != Proof::fails && meeting.interpenetrate &&
-        !contacts_of_sheets(a, b, contacts).empty())
-        within = both_hold(within, cross_at_most(pair, touch, result.penetration));
+        std::ranges::any_of(contacts, [&](const Contact& c) { return sheets.have(c); }))
+        within = both_hold(within, cross_at_most(pair, sheets, touch, result.penetration));
     if (within != Proof::fails)
         result.kind = within == Proof::holds ? ClashKind::touch : ClashKind::undecided;
     return result;

@@ -315,6 +315,34 @@ TEST(TouchTolerance, SheetsOfPartsThatAlsoHoldSolids) {
     }
 }
 
+TEST(TouchTolerance, FinsWithoutAThicknessAreSheets) {
+    // Each fin has two sides, whose triangles are the same or not, and shares corners with a box.
+    const double t = 1e-3;
+    for (const bool same : {true, false})
+        for (const double reach : {0.5 * t, 2 * t, 0.5}) {
+            const auto fin = [&](const Vec3& p, const Vec3& u, const Vec3& v) {
+                Mesh m{{p, p + u, p + u + v, p + v}, {{0, 1, 2}, {0, 2, 3}}};
+                m.triangles.push_back(same ? std::array<std::uint32_t, 3>{0, 2, 1}
+                                           : std::array<std::uint32_t, 3>{0, 3, 1});
+                m.triangles.push_back(same ? std::array<std::uint32_t, 3>{0, 3, 2}
+                                           : std::array<std::uint32_t, 3>{1, 3, 2});
+                return m;
+            };
+            const Mesh wall = joined(box_mesh({-2, 0, -2}, {2, 1, -1}),
+                                     fin({-2, 0, -1}, {4, 0, 0}, {0, 0, 1 + reach})),
+                       floor = joined(box_mesh({-9, -3, -0.5}, {-8, 3, 0}),
+                                      fin({-8, -3, 0}, {16, 0, 0}, {0, 6, 0}));
+            const ClashKind expected = reach < t ? touch : hard;
+            EXPECT_EQ(word_of(kind_of(classified(wall, floor, t))), to_string(expected));
+            EXPECT_EQ(word_of(kind_of(classified(floor, wall, t))), to_string(expected));
+        }
+    // Plates thinner than the tolerance are solids: they cross, but no point is deep.
+    const Mesh upright = box_mesh({-5, -0.002, -5}, {5, 0.002, 5}),
+               level = box_mesh({-5, -5, -0.002}, {5, 5, 0.002});
+    EXPECT_EQ(word_of(kind_of(classified(upright, level, 0.01))), "touch");
+    EXPECT_EQ(word_of(kind_of(classified(level, upright, 0.01))), "touch");
+}
+
 TEST(TouchTolerance, PartsOfWhichOneShellIsInside) {
     const Mesh block = box_mesh({0, 0, 0}, {2, 2, 2});
     const Mesh two = joined(box_mesh({0.5, 0.5, 0.5}, {1, 1, 1}), box_mesh({3, 0, 0}, {4, 1, 1}));
