@@ -2,11 +2,11 @@
 
 #include "core/disjoint_sets.h"
 #include "core/stop.h"
+#include "geometry/convex_polygon.h"
 #include "geometry/ray_triangle_intersect.h"
 #include "geometry/triangle_triangle_intersect.h"
 #include "math/predicates.h"
 #include "mesh/topology.h"
-#include "rigid/model/convex_polygon.h"
 
 #include <algorithm>
 #include <cmath>

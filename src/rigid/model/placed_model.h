@@ -2,9 +2,9 @@
 
 #include <abut/model.h>
 
+#include "geometry/far_view.h"
 #include "math/rounding.h"
 #include "math/transform.h"
-#include "rigid/model/far_view.h"
 #include "rigid/model/model_data.h"
 #include "tree/traverse_one.h"
 
