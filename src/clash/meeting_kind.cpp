@@ -134,7 +134,7 @@ class SheetsOfPair {
 public:
     SheetsOfPair(const WorldSolid& a, const WorldSolid& b) : of_a_(a), of_b_(b) {}
 
-    /// Whether both faces of a contact bound no solid.
+    /// Returns whether both faces of a contact bound no solid.
     bool have(const Contact& contact) {
         return of_a_.hold(contact.pair.a) && of_b_.hold(contact.pair.b);
     }

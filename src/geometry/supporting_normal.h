@@ -41,8 +41,8 @@ Vec3 supporting_normal(const Vec3& way, double rounding, const BeyondA& beyond_a
         // Two edges, one of each solid, that are nearly parallel: across both at once.
         const Vec3 both = normalized_or_zero(cross(last, beyond));
         const double along = dot(both, normal);
-        constexpr double kNear = 1 - 0x1p-10;
-        if (step > 0 && std::abs(along) > kNear)
+        constexpr double kNearlyAcross = 1 - 0x1p-10; // 2.5 degrees
+        if (step > 0 && std::abs(along) > kNearlyAcross)
             next = along < 0 ? -both : both;
         last = beyond, normal = next;
     }

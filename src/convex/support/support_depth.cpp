@@ -123,6 +123,7 @@ private:
     /// apart, the motion was not the shortest: that along g is shorter by at least |g| - slight. If
     /// not, g lies along the motion, and so does the vector between the points before it.
     void descend(SupportDepth& depth) const {
+        // Far above the rounding of lengths, which are about 1 here.
         constexpr double kSlight = 0x1p-32;
         constexpr int kMostMotions = 32;
         for (int i = 0; i < kMostMotions; ++i) {

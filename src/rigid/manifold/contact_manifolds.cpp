@@ -249,7 +249,7 @@ ModelManifold manifold_of_nearest(const PlacedPair& pair, const std::vector<Cont
     return m;
 }
 
-/// What counts as contact of a solid inside the other, whose surfaces share no point.
+/// Tells what counts as contact of a solid inside the other one, where the surfaces share no point.
 enum class Inside : std::uint8_t { apart, in_contact };
 
 std::vector<ModelManifold> manifolds_of(const Model& a, const Transform& world_from_a,

@@ -17,8 +17,8 @@ namespace abut {
 
 namespace {
 
-/// Parts narrower than this share of the solids' size are not cut off, nor those narrower than some
-/// dozens of roundings: far above the rounding of the points where faces meet.
+/// Parts narrower than this share of the solids' size are not cut off, nor those narrower than so
+/// many roundings: far above the rounding of the points where faces meet.
 constexpr double kNarrowest = 0x1p-40, kNarrowestRoundings = 64;
 /// Rounding of a point where faces meet, of its coordinates: some roundings of products.
 constexpr double kPointRounding = 0x1p-50;
@@ -376,7 +376,8 @@ double FaceFragments::strip_beside(std::uint32_t f, std::uint32_t g) const {
     const double length_of_line =
         std::min(length(box_f.upper - box_f.lower), length(box_g.upper - box_g.lower));
     const double height = rounding_ + thickness_[f] + thickness_[g], sine = length(cross(n, m));
-    const double strip = 2 * length_of_line * height / std::max(sine, 0x1p-52);
+    constexpr double kLeastSine = 0x1p-52; // of planes that are parallel but for rounding
+    const double strip = 2 * length_of_line * height / std::max(sine, kLeastSine);
     const bool is_steep = strip < length_of_line * tolerance_;
     return is_steep ? strip : std::min(strip, faces_overlay(tf, tg, tolerance_).area);
 }

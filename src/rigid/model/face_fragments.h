@@ -57,8 +57,8 @@ public:
     ///
     /// Accuracy    sides: exact at a point within rounding of the fragment's centroid, but that faces
     ///             of one layer count as one. Corners that are not the triangle's are on it to
-    ///             rounding. Parts narrower than 2^-40 of the solids' size, or than a hundred
-    ///             roundings, are not cut off. See uncertainty().
+    ///             rounding. Parts narrower than 2^-40 of the solids' size, or than 64 of
+    ///             their roundings, are not cut off. See uncertainty().
     [[nodiscard]] bool for_each(const std::function<void(const Fragment&)>& visit);
 
     /// In          after for_each().

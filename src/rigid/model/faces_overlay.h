@@ -10,7 +10,7 @@ struct FacesOverlay {
     double height = 0; ///< the largest distance of its points from f's plane
 };
 
-/// What faces that are cut where they meet may tell wrongly about a solid.
+/// Bounds the errors of sides and volumes told by faces that are cut where they meet.
 struct FacesUncertainty {
     double area = 0;   ///< of faces whose sides may be others: at borders of their parts
     double volume = 0; ///< between faces that are taken as one

@@ -5,6 +5,7 @@
 #include <abut/types.h>
 
 #include "math/transform.h"
+#include "rigid/model/slot_copies.h"
 #include "rigid/model/solid.h"
 #include "rigid/model/solid_boundary.h"
 #include "rigid/model/tree_boxes.h"
@@ -74,6 +75,8 @@ public:
     [[nodiscard]] const BoundarySearch& boundary() const { return boundary_.of(mesh_, solid()); }
     /// The tree's boxes in double precision. The first call makes them. In: the tree is not empty.
     [[nodiscard]] const std::vector<Box3>& tree_boxes() const { return tree_boxes_.of(*this); }
+    /// Tells by slot which triangles are copies of others. The first call searches for them.
+    [[nodiscard]] const std::vector<bool>& slot_copies() const { return slot_copies_.of(*this); }
     [[nodiscard]] std::size_t bytes() const;
 
 private:
@@ -96,6 +99,7 @@ private:
     LazySolid solid_;
     LazyBoundary boundary_;
     LazyTreeBoxes tree_boxes_;
+    LazySlotCopies slot_copies_;
 };
 
 /// Upper bound on Model::bytes() for this many triangles and vertices, with the overhead of a

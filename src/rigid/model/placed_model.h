@@ -106,8 +106,8 @@ private:
     bool make_frame(bool has_origin);
     void move_to_origin();
     [[nodiscard]] Aabb tree_box(const Box3& box) const;
-    /// Whether boxes in single precision, in the tree's frame, do not tell which one is nearer to a
-    /// point: it is far away, or at some distance under a transform that stretches one direction more
+    /// Returns whether boxes in single precision, in the tree's frame, do not tell which one is nearer
+    /// to a point: it is far away, or at some distance under a transform that stretches one direction more
     /// than another, so that a distance in the tree's frame says little.
     [[nodiscard]] bool is_far(const Vec3& point) const {
         constexpr double kUneven = 1 + 0x1p-10, kFar = 16, kFarUneven = 1;

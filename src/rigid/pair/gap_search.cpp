@@ -6,60 +6,27 @@
 #include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <tuple>
 #include <vector>
 
 namespace abut {
 
 namespace {
 
-/// The slots of triangles that have the same corners, in the same order, as a triangle of a lower index.
-/// Empty if there are none.
-std::vector<bool> repeated_slots(const ModelData& model) {
-    const auto slots = static_cast<std::uint32_t>(model.tree().order.size());
-    std::vector<std::uint32_t> order(slots);
-    std::iota(order.begin(), order.end(), 0U);
-    const auto corner = [&](std::uint32_t slot, std::size_t k) {
-        const Vec3& p =
-            model.mesh().positions[model.mesh().triangles[model.triangle_at(slot)].at(k)];
-        return std::tuple(p.x, p.y, p.z);
-    };
-    const auto compare = [&](std::uint32_t s, std::uint32_t t) {
-        for (std::size_t k = 0; k < 3; ++k)
-            if (corner(s, k) != corner(t, k))
-                return corner(s, k) < corner(t, k) ? -1 : 1;
-        return 0;
-    };
-    std::sort(order.begin(), order.end(), [&](std::uint32_t s, std::uint32_t t) {
-        const int sign = compare(s, t);
-        return sign < 0 || (sign == 0 && model.triangle_at(s) < model.triangle_at(t));
-    });
-    std::vector<bool> repeats;
-    for (std::size_t i = 1; i < order.size(); ++i) {
-        if (compare(order[i - 1], order[i]) != 0)
-            continue;
-        repeats.resize(slots);
-        repeats[order[i]] = true;
-    }
-    return repeats;
-}
-
 /// The boxes of a placed tree along the axes of a GapFrame. Both bounds are those of vertices, as they
 /// are computed.
 class GapBoxes {
 public:
     GapBoxes(const ModelData& model, const Transform& world, const GapFrame& frame)
-        : model_(model), world_(world), frame_(frame), repeats_(repeated_slots(model)),
+        : model_(model), world_(world), frame_(frame), copies_(model.slot_copies()),
           boxes_(model.tree().nodes.size() * Node::kWidth), root_(box_of_children(0)) {}
 
     [[nodiscard]] const Tree& tree() const { return model_.tree(); }
     [[nodiscard]] const Box3& box(std::uint32_t name) const {
         return name == kRootName ? root_ : boxes_[name];
     }
-    /// Whether a triangle of a leaf is a copy of another one.
-    [[nodiscard]] bool repeats(NodeRef leaf, std::uint32_t i) const {
-        return !repeats_.empty() && repeats_[leaf.first() + i];
+    /// Returns whether a triangle of a leaf is a copy of another one.
+    [[nodiscard]] bool is_copy(NodeRef leaf, std::uint32_t i) const {
+        return !copies_.empty() && copies_[leaf.first() + i];
     }
     /// Upper bound of the distance of a vertex from the frame's origin, but for rounding.
     [[nodiscard]] double reach() const {
@@ -84,7 +51,7 @@ private:
     [[nodiscard]] Box3 box_of_leaf(NodeRef leaf) const {
         Box3 box;
         for (std::uint32_t i = 0; i < leaf.count(); ++i)
-            if (!repeats(leaf, i))
+            if (!is_copy(leaf, i))
                 for (const Vec3& vertex : model_.world_slot(leaf.first() + i, world_))
                     extend(box, frame_.seen(vertex));
         return box;
@@ -93,8 +60,8 @@ private:
     const ModelData& model_;
     const Transform& world_;
     const GapFrame& frame_;
-    std::vector<bool> repeats_; ///< by slot: copies of other triangles; empty if there are none
-    std::vector<Box3> boxes_;   ///< by the names of children
+    const std::vector<bool>& copies_; ///< as ModelData::slot_copies
+    std::vector<Box3> boxes_;         ///< by the names of children
     Box3 root_;
 };
 
@@ -106,11 +73,6 @@ double gap_of(const Box3& a, const Box3& b) {
     return length({along(a.lower.x, a.upper.x, b.lower.x, b.upper.x),
                    along(a.lower.y, a.upper.y, b.lower.y, b.upper.y),
                    along(a.lower.z, a.upper.z, b.lower.z, b.upper.z)});
-}
-
-/// Whether a box holds anything: that of copies of triangles elsewhere holds nothing.
-bool holds_any(const Box3& box) {
-    return box.lower.x <= box.upper.x;
 }
 
 class GapSearch {
@@ -169,7 +131,7 @@ private:
         const auto before = static_cast<std::ptrdiff_t>(pending_.size());
         for (std::uint32_t lane = 0; lane < Node::kWidth && !node.child[lane].is_none(); ++lane) {
             const std::uint32_t name = child_name(ref.index(), lane);
-            if (!holds_any(side.box(name)))
+            if (is_empty(side.box(name))) // only copies of triangles elsewhere
                 continue;
             const BoxPair pair = pair_of(name);
             ++traversal_.volume_tests;
@@ -185,7 +147,7 @@ private:
         std::uint32_t all = 0;
         for (std::uint32_t i = 0; i < a.count(); ++i)
             for (std::uint32_t j = 0; j < b.count(); ++j)
-                if (!a_.repeats(a, i) && !b_.repeats(b, j)) {
+                if (!a_.is_copy(a, i) && !b_.is_copy(b, j)) {
                     all |= 1U << (TriangleLeaf::kLanes * i + j);
                     ++traversal_.primitive_tests;
                 }

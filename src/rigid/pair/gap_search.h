@@ -27,8 +27,9 @@ public:
 /// Out         of triangles of one model with the same corners in the same order, only the one with the
 ///             least index is visited: a pile of copies is one triangle.
 /// Accuracy    certified, as far as the visitor asks for it (certain_gap).
-/// Cost        first about 50 ns a triangle for the boxes of both trees, and a sort of the triangles; then depth first, the nearer
-///             child first, one box against eight in double precision.
+/// Cost        first about 50 ns a triangle for the boxes of both trees, and for each model once a sort
+///             of its triangles; then depth first, the nearer child first, one box against eight in
+///             double precision.
 /// Source      refit of a hierarchy [van den Bergen 1997], into a frame that depends on the query.
 Verdict search_gap(const PlacedPair& pair, const GapFrame& frame, PairTraversal& traversal,
                    GapVisitor& visitor);

@@ -77,6 +77,18 @@ DeepestPoint deepest_of(const WorldSolid& surface, const WorldSolid& solid,
     return best;
 }
 
+/// The penetration at the deepest point of one model's surface in the other one, a solid.
+LocalPenetration penetration_at(const DeepestPoint& p, bool surface_is_a) {
+    LocalPenetration result;
+    result.depth = p.depth, result.at_most = p.at_most, result.is_in_solid = true;
+    result.point_a = surface_is_a ? p.on_surface : p.on_solid;
+    result.point_b = surface_is_a ? p.on_solid : p.on_surface;
+    result.direction = normalized_or_zero(result.point_a - result.point_b);
+    result.triangles = surface_is_a ? TrianglePair{p.surface_triangle, p.solid_triangle}
+                                    : TrianglePair{p.solid_triangle, p.surface_triangle};
+    return result;
+}
+
 LocalPenetration deepest_inside(const WorldSolid& a, const WorldSolid& b,
                                 std::span<const Contact> contacts, const DepthSearch& options,
                                 const SurfacePart& part_a, const SurfacePart& part_b) {
@@ -84,29 +96,15 @@ LocalPenetration deepest_inside(const WorldSolid& a, const WorldSolid& b,
     if (b.bounds_solid()) {
         const DeepestPoint p =
             deepest_of(a, b, some_triangles(contacts, &TrianglePair::a), part_a, options, 0);
-        best = {p.depth,
-                p.at_most,
-                0,
-                true,
-                p.on_surface,
-                p.on_solid,
-                normalized_or_zero(p.on_surface - p.on_solid)};
-        best.triangles = {p.surface_triangle, p.solid_triangle};
+        best = penetration_at(p, true);
     }
     if (a.bounds_solid()) {
         const DeepestPoint p = deepest_of(b, a, some_triangles(contacts, &TrianglePair::b), part_b,
                                           options, best.depth);
-        if (p.depth > best.depth) {
-            best = {p.depth,
-                    best.at_most,
-                    0,
-                    true,
-                    p.on_solid,
-                    p.on_surface,
-                    normalized_or_zero(p.on_solid - p.on_surface)};
-            best.triangles = {p.solid_triangle, p.surface_triangle};
-        }
-        best.at_most = std::max(best.at_most, p.at_most);
+        const double at_most = std::max(best.at_most, p.at_most);
+        if (p.depth > best.depth)
+            best = penetration_at(p, false);
+        best.at_most = at_most;
     }
     return best;
 }

@@ -42,7 +42,7 @@ public:
         area_error_ += area;
         error_ += area * size_ + stretch * stretch * stretch * uncertainty.volume;
     }
-    /// None if the faces do not close: then they contradict each other.
+    /// Returns none if the faces do not close: then they contradict each other.
     [[nodiscard]] std::optional<OverlapVolume> result() const {
         if (!(length(areas_) <= area_error_))
             return std::nullopt;

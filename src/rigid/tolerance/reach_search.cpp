@@ -164,7 +164,7 @@ Proof ReachSearch::add(const FacePolygon& polygon) {
         return proof_;
     if (!options_.both_sides && !overlap(box_of(polygon), box_))
         return proof_;
-    left_ += options_.budget / 4096;
+    left_ += static_cast<std::uint64_t>(kShareOfPolygon * static_cast<double>(options_.budget));
     push(within_bounds(polygon), last_);
     while (!waiting_.empty() && proof_ == Proof::holds) {
         Piece piece = waiting_.back();

@@ -19,13 +19,13 @@ enum class Proof : std::uint8_t {
     open,  ///< the budget is used up
 };
 
-/// What is known of two statements together.
+/// Returns what is known of two statements together.
 inline Proof both_hold(Proof p, Proof q) {
     if (p == Proof::fails || q == Proof::fails)
         return Proof::fails;
     return p == Proof::holds ? q : p;
 }
-/// What is known of the statement that one of two holds.
+/// Returns what is known of the statement that one of two holds.
 inline Proof either_holds(Proof p, Proof q) {
     if (p == Proof::holds || q == Proof::holds)
         return Proof::holds;
@@ -56,10 +56,12 @@ public:
         bool both_sides = false;
         /// No point over one of these planes is beyond: what polygons have there is left out.
         std::vector<CuttingPlane> bounds{};
-        /// Pieces that may be examined, in all polygons together. Each polygon adds 1/4096 of that, so
-        /// that surfaces of many faces are decided, too.
+        /// Pieces that may be examined, in all polygons together. Each polygon adds kShareOfPolygon
+        /// of that, so that surfaces of many faces are decided, too.
         std::uint64_t budget = 0;
     };
+    static constexpr double kShareOfPolygon = 1.0 / 4096;
+
     ReachSearch(const WorldSolid& solid, Options options)
         : solid_(solid), options_(std::move(options)),
           box_(grown(solid.world_box(), options_.limit + options_.rounding)),

@@ -12,7 +12,7 @@ struct OptionalTable {
     std::string_view name;
     std::string_view definition; ///< the CREATE TABLE statement
 
-    /// Whether the table exists, with this definition.
+    /// Returns whether the table exists, with this definition.
     [[nodiscard]] bool exists(Database& database) const;
 
     /// Creates the table unless there is one of its name. Returns whether it now exists. Call it

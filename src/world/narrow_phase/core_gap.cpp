@@ -101,7 +101,7 @@ Vec3 way_to_core(const SurfaceOrSolid& body, const NearestPlace& place, const Ve
     const Vec3 start = normalized_or_zero(way);
     std::vector<Vec3> reaches;
     for (const Vec3& corner : body.corners_around(place.on_surface, 4 * length(way)))
-        // What rises more is no rounding: another part of the surface, on the core's side.
+        // A corner that rises more belongs to another part of the surface, on the core's side.
         if (const Vec3 from = corner - place.on_surface; dot(from, start) <= tilt * length(from))
             reaches.push_back(from);
     const auto beyond_place = [&](const Vec3& n) {

@@ -102,7 +102,7 @@ TEST(Thickness, LargestBallsOfKnownSolids) {
 }
 
 TEST(Thickness, TolerancesNearTheThicknessAreDecided) {
-    // Also solids of which one shell is inside out, so that outward() is 0.
+    // Some solids have one shell inside out, so that outward() is 0.
     const Mesh floor = box_mesh({-0.5, -3, -3}, {0.5, 3, 3});
     std::vector<KnownThickness> all = known_thicknesses();
     for (const int sides : {12, 36}) {
