@@ -90,6 +90,16 @@ Aabb PlacedModel::tree_box(const Box3& box) const {
     return Aabb({p - h, p + h}, margin(magnitude(middle) + magnitude(half)));
 }
 
+Aabb PlacedModel::tree_box(std::span<const Vec3> points, double distance) const {
+    Box3 box;
+    double size = 0;
+    for (const Vec3& point : points) {
+        extend(box, apply(tree_from_world_, point));
+        size = std::max(size, magnitude(point));
+    }
+    return Aabb(grown(box, distance / least_stretch_), margin(size));
+}
+
 TreeHalfSpace PlacedModel::tree_half_space(const HalfSpace& space) const {
     const Vec3 normal =
         normalized_or_zero(pull_back(world_from_tree_, normalized_or_zero(space.normal)));

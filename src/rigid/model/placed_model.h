@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 
 namespace abut {
 
@@ -72,6 +73,12 @@ public:
     /// Calls visit(slot) for every triangle that may meet a world box.
     template <typename Visit>
     void for_each_overlap(const Box3& box, const Visit& visit) const;
+    /// Calls visit(slot) for every triangle that may come within `distance` of the convex hull of some
+    /// world points. Skips more than with their world box, because faces are often parallel to the
+    /// model's axes.
+    template <typename Visit>
+    void for_each_near_hull(std::span<const Vec3> points, double distance,
+                            const Visit& visit) const;
 
     /// The half-space in front of a plane through a point. Empty if the normal is zero.
     struct HalfSpace {
@@ -106,6 +113,7 @@ private:
     bool make_frame(bool has_origin);
     void move_to_origin();
     [[nodiscard]] Aabb tree_box(const Box3& box) const;
+    [[nodiscard]] Aabb tree_box(std::span<const Vec3> points, double distance) const;
     /// Returns whether boxes in single precision, in the tree's frame, do not tell which one is nearer
     /// to a point: it is far away, or at some distance under a transform that stretches one direction more
     /// than another, so that a distance in the tree's frame says little.
@@ -148,6 +156,12 @@ inline double magnitude(const Vec3& p) {
 template <typename Visit>
 void PlacedModel::for_each_overlap(const Box3& box, const Visit& visit) const {
     abut::for_each_overlap(data().tree(), tree_box(box), visit);
+}
+
+template <typename Visit>
+void PlacedModel::for_each_near_hull(std::span<const Vec3> points, double distance,
+                                     const Visit& visit) const {
+    abut::for_each_overlap(data().tree(), tree_box(points, distance), visit);
 }
 
 template <typename Visit>

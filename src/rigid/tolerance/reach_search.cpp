@@ -136,13 +136,14 @@ std::optional<Triangle> triangle_met_by(const FacePolygon& polygon, const WorldS
     const Box3 box = grown(box_of(polygon), options.rounding);
     const MeetingTest test(polygon, options.rounding);
     surface.for_each_surface_block(box, [&](const WorldSolid::Block& block) {
-        block.model.for_each_overlap(box, [&](std::uint32_t slot) {
-            if (met)
-                return;
-            const Triangle t = block.model.world_slot(slot);
-            if (test.meets(t))
-                met = t;
-        });
+        block.model.for_each_near_hull({polygon.data(), polygon.size()}, options.rounding,
+                                       [&](std::uint32_t slot) {
+                                           if (met)
+                                               return;
+                                           const Triangle t = block.model.world_slot(slot);
+                                           if (test.meets(t))
+                                               met = t;
+                                       });
         return !met;
     });
     return met;
@@ -185,6 +186,10 @@ FacePolygon ReachSearch::within_bounds(FacePolygon polygon) const {
     for (const CuttingPlane& bound : options_.bounds) {
         if (polygon.size() < 3 || polygon.size() > kMostCornersToCut)
             break;
+        if (std::ranges::all_of(polygon, [&](const Vec3& corner) {
+                return dot(corner - bound.point, bound.normal) <= options_.rounding;
+            }))
+            continue;
         polygon = cut(polygon, bound, options_.rounding).inside;
     }
     return polygon;
