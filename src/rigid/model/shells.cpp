@@ -187,10 +187,12 @@ public:
     }
 
     ShellOrientation run() {
+        const int side = largest().side();
         const bool same_side = std::ranges::all_of(
-            shells_, [&](const Shell& s) { return s.side() == 0 || s.side() == largest().side(); });
+            shells_, [&](const Shell& s) { return s.side() == 0 || s.side() == side; });
+        result_.are_flat = side == 0;
         if (sets_.reversed.empty() && same_side) {
-            result_.outward = largest().side();
+            result_.outward = side;
         } else {
             find_cavities();
             set_weights();
