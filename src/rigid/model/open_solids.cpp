@@ -88,7 +88,7 @@ private:
             if (take(own, false) || (has_copies && take(set, false)) || take(own, true) ||
                 (has_copies && take(set, true)))
                 continue;
-            if (!take_without_sheet(own))
+            if (!take_without_sheet(own, false) && !take_without_sheet(own, true))
                 add_sheet(own);
         }
         std::ranges::sort(result_.rest);
@@ -106,11 +106,13 @@ private:
 
     /// Adds the solid that a set bounds without one of its patches: a sheet that hangs by a vertex or an
     /// edge of it. The sheet is left out.
-    bool take_without_sheet(const Numbers& set) {
-        constexpr std::size_t kLargestSet = 4096, kTriedPatches = 16;
+    ///
+    /// In          flat: as patches_of(). A sheet may share an edge with one face only.
+    bool take_without_sheet(const Numbers& set, bool flat) {
+        constexpr std::size_t kLargestSet = 4096, kTriedPatches = 32;
         if (set.size() > kLargestSet)
             return false;
-        const std::vector<std::uint32_t> patch_of = patches_of(mesh_, topology_, set);
+        const std::vector<std::uint32_t> patch_of = patches_of(mesh_, topology_, set, flat);
         Numbers patches = patch_of;
         std::ranges::sort(patches);
         patches.erase(std::unique(patches.begin(), patches.end()), patches.end());

@@ -44,6 +44,8 @@ public:
 
     /// Unites two sets. Returns false if their members are in one set that says otherwise.
     bool unite(std::uint32_t i, std::uint32_t j, bool turned) {
+        if (parent_[i] == parent_[j] && ((turned_[i] ^ turned_[j]) != 0) == turned)
+            return true;
         const Root a = root(i), b = root(j);
         const bool turn = (a.turned != b.turned) != turned;
         if (a.root == b.root)
@@ -173,24 +175,41 @@ private:
 
     /// Connects triangles at edges that two of them use, and notes edges that more use.
     void connect_pairs() {
-        for (std::size_t begin = 0, end = 0; begin < edges_.size(); begin = end) {
-            std::array<std::size_t, 2> first{};
-            std::size_t count = 0;
-            for (; end < edges_.size() && same_edge(edges_[begin], edges_[end]); ++end) {
-                if (!is_left(edges_[end]))
-                    continue;
-                if (count < 2)
-                    first.at(count) = end;
-                ++count;
-                result_.shell_of[edges_[end].triangle] = 0;
-            }
-            if (count == 2) {
-                const HalfEdge &e = edges_[first[0]], &f = edges_[first[1]];
+        const std::size_t size = edges_.size();
+        for (std::size_t begin = 0, end = 0; begin < size; begin = end) {
+            const HalfEdge& e = edges_[begin];
+            const bool is_pair = begin + 1 < size && same_edge(e, edges_[begin + 1]) &&
+                                 (begin + 2 == size || !same_edge(e, edges_[begin + 2]));
+            if (is_pair && dropped_.empty()) {
+                const HalfEdge& f = edges_[begin + 1];
+                result_.shell_of[e.triangle] = result_.shell_of[f.triangle] = 0;
                 unite(e.triangle, f.triangle, e.from == f.from);
-            } else if (count > 2) {
-                shared_.push_back(edges_.subspan(begin, end - begin));
+                end = begin + 2;
+                continue;
             }
+            end = connect_uses(begin);
         }
+    }
+
+    /// Connects the triangles at one edge, or notes it. Returns the end of its uses.
+    std::size_t connect_uses(std::size_t begin) {
+        std::array<std::size_t, 2> first{};
+        std::size_t count = 0, end = begin;
+        for (; end < edges_.size() && same_edge(edges_[begin], edges_[end]); ++end) {
+            if (!is_left(edges_[end]))
+                continue;
+            if (count < 2)
+                first.at(count) = end;
+            ++count;
+            result_.shell_of[edges_[end].triangle] = 0;
+        }
+        if (count == 2) {
+            const HalfEdge &e = edges_[first[0]], &f = edges_[first[1]];
+            unite(e.triangle, f.triangle, e.from == f.from);
+        } else if (count > 2) {
+            shared_.push_back(edges_.subspan(begin, end - begin));
+        }
+        return end;
     }
 
     void connect_shared() {

@@ -22,15 +22,14 @@ Triangle triangle(const Mesh& mesh, std::uint32_t i) {
     return {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
 }
 
-/// Takes over how the shells of a closed surface bound the solid. Returns whether they are flat: without
-/// an inside.
-bool orient(Solid& s, const Mesh& mesh, const std::vector<bool>& dropped) {
+/// Takes over how the shells of a closed surface bound the solid.
+ShellOrientation orient(Solid& s, const Mesh& mesh, const std::vector<bool>& dropped) {
     ShellOrientation shells = orient_shells(mesh, s.topology, dropped);
     s.outward = shells.outward;
     s.weights = std::move(shells.weights);
     s.has_parity_only = shells.has_parity_only;
     s.may_overlap = shells.may_overlap;
-    return shells.are_flat;
+    return shells;
 }
 
 /// Gives the triangles of open components that bound a solid but for T-junctions their weight.
@@ -77,7 +76,7 @@ void examine_faulty(Solid& s, const Mesh& mesh) {
         take_whole(mesh, s.topology, clean, open);
     s.closed = s.solid = clean.closed;
     s.copies = clean.copies;
-    if (s.closed && orient(s, mesh, clean.dropped) && !open.solids.empty())
+    if (s.closed && orient(s, mesh, clean.dropped).are_flat && !open.solids.empty())
         s.closed = s.has_parity_only = s.may_overlap = false, s.weights.clear();
     add_open(s, mesh, open.solids);
     std::erase_if(s.copies, [&](std::uint32_t t) { return s.weight(t) != 0; });
@@ -177,12 +176,18 @@ bool bounds_solid(const Mesh& mesh) {
 Solid examine_solid(const Mesh& mesh) {
     Solid s;
     s.topology = make_topology(mesh);
-    s.components = component_representatives(mesh, s.topology);
     s.closed = s.solid = is_closed(s.topology);
+    std::uint32_t shells = 0;
     if (s.closed)
-        orient(s, mesh, {});
+        shells = orient(s, mesh, {}).count;
     else
         examine_faulty(s, mesh);
+    // A triangle with two equal vertices has no edges; it may be a component by itself.
+    const bool all_have_edges = s.topology.half_edges.size() == 3 * mesh.triangles.size();
+    if (shells == 1 && all_have_edges)
+        s.components = {0};
+    else
+        s.components = component_representatives(mesh, s.topology);
     return s;
 }
 

@@ -91,7 +91,15 @@ largest_triangles(const Mesh& mesh, std::span<const std::uint32_t> triangles, st
 }
 
 std::vector<std::uint32_t> patches_of(const Mesh& mesh, const Topology& topology,
-                                      std::span<const std::uint32_t> set) {
+                                      std::span<const std::uint32_t> set, bool flat) {
+    const auto are_coplanar = [&](std::uint32_t i, std::uint32_t j) {
+        constexpr double kCosineOfADegree = 0.99985;
+        const auto normal = [&](std::uint32_t index) {
+            const Triangle t = triangle_of(mesh, set[index]);
+            return normalized_or_zero(cross(t[1] - t[0], t[2] - t[0]));
+        };
+        return dot(normal(i), normal(j)) >= kCosineOfADegree;
+    };
     std::vector<SetEdge> edges;
     for (std::uint32_t i = 0; i < set.size(); ++i)
         for (std::size_t k = 0; k < 3; ++k) {
@@ -106,7 +114,8 @@ std::vector<std::uint32_t> patches_of(const Mesh& mesh, const Topology& topology
     for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
         while (end < edges.size() && edges[end].is_same(edges[begin]))
             ++end;
-        if (end - begin == 2 && edges[begin].is_upwards != edges[begin + 1].is_upwards)
+        if (end - begin == 2 && edges[begin].is_upwards != edges[begin + 1].is_upwards &&
+            (!flat || are_coplanar(edges[begin].index, edges[begin + 1].index)))
             sets.unite(edges[begin].index, edges[begin + 1].index);
     }
     return std::move(sets).roots();
@@ -122,7 +131,7 @@ std::optional<SetWinding> winding_of(const Mesh& mesh, const Topology& topology,
         if (std::abs(over - std::round(over)) > kWindingRounding)
             return false;
         if (!vote)
-            patch_of = patches_of(mesh, topology, set), vote.emplace(set.size());
+            patch_of = patches_of(mesh, topology, set, false), vote.emplace(set.size());
         const auto index = std::ranges::lower_bound(set, triangle) - set.begin();
         return vote->add(patch_of[static_cast<std::size_t>(index)], over,
                          winding_number(mesh, set, beside.under));

@@ -34,8 +34,10 @@ std::optional<SetWinding> winding_of(const Mesh& mesh, const Topology& topology,
                                      std::span<const std::uint32_t> set);
 
 /// Returns for each triangle of a set the least index in the set of a triangle of its patch.
+///
+/// In          flat: triangles of a patch are also coplanar with their neighbours, to a degree.
 std::vector<std::uint32_t> patches_of(const Mesh& mesh, const Topology& topology,
-                                      std::span<const std::uint32_t> set);
+                                      std::span<const std::uint32_t> set, bool flat);
 
 /// The largest of some triangles; of equal ones, those of the least numbers.
 std::vector<std::uint32_t>
