@@ -84,6 +84,21 @@ inline Mesh random_box_mesh(Random& random, const Vec3& lower, const Vec3& upper
     return m;
 }
 
+/// Each triangle as four, so that vertices lie in the middle of edges.
+inline Mesh subdivided(const Mesh& m) {
+    Mesh fine;
+    for (const auto& t : m.triangles) {
+        const Vec3 &a = m.positions[t[0]], &b = m.positions[t[1]], &c = m.positions[t[2]];
+        const auto n = static_cast<std::uint32_t>(fine.positions.size());
+        for (const Vec3& p : {a, b, c, 0.5 * a + 0.5 * b, 0.5 * b + 0.5 * c, 0.5 * c + 0.5 * a})
+            fine.positions.push_back(p);
+        for (const auto& [i, j, k] : {std::array{0U, 3U, 5U}, std::array{3U, 1U, 4U},
+                                      std::array{5U, 4U, 2U}, std::array{3U, 4U, 5U}})
+            fine.triangles.push_back({n + i, n + j, n + k});
+    }
+    return fine;
+}
+
 struct Shells {
     Mesh mesh;
     Cells cells;

@@ -183,6 +183,10 @@ void FaceFragments::add_cuts(const Triangle& f, const Triangle& g, std::vector<C
     std::vector<Vec3> ends;
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3;
+        // Rounding decides where an edge in the plane of f passes it, and differs between the two
+        // faces at the edge: their segments may leave a gap. So the whole edge cuts f.
+        if (std::max(std::abs(height.at(i)), std::abs(height.at(j))) <= 2 * rounding_)
+            cuts.push_back({g[i], g[j]});
         if (side.at(i) == 0)
             ends.push_back(g[i]);
         if (side.at(i) * side.at(j) < 0)

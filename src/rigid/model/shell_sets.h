@@ -25,10 +25,14 @@ struct ShellSets {
 /// at the first triangle of a pair and ends at the second, and does not end in between. So what two
 /// shells share there is not mixed up.
 ///
-/// In          uses of one edge, as many upwards as downwards.
+/// In          uses of one edge, as many upwards as downwards. sheet_of: if not empty, by triangle: a
+///             number that triangles of one sheet have in common. Triangles on each other that face
+///             the same way, as those of a face that two shells share are if one is turned inside
+///             out, lie in the order of their sheets, so that each shell has its own.
 /// Accuracy    exact.
 std::vector<std::pair<HalfEdge, HalfEdge>> pair_uses(const Mesh& mesh,
-                                                     std::span<const HalfEdge> uses);
+                                                     std::span<const HalfEdge> uses,
+                                                     std::span<const std::uint32_t> sheet_of = {});
 
 /// In          as orient_shells.
 /// Cost        O(n log n).

@@ -24,9 +24,9 @@ constexpr std::size_t kTestedTriangles = 4096;
 constexpr double kVolumeRounding = 0x1p-46;
 
 struct Shell {
-    Box3 box;
-    double volume = 0, size = 0; ///< six times; the sum of the sizes of its terms
-    std::vector<std::uint32_t> triangles;
+    Box3 box;                             ///< of one among several
+    double volume = 0, size = 0;          ///< six times; the sum of the sizes of its terms
+    std::vector<std::uint32_t> triangles; ///< empty until ShellExamination::list_triangles()
     bool is_cavity = false;
 
     /// The side to which the shell's first triangle faces: 1: outwards; -1: inwards; 0: there is no
@@ -187,11 +187,14 @@ public:
     }
 
     ShellOrientation run() {
+        const int side = largest().side();
         const bool same_side = std::ranges::all_of(
-            shells_, [&](const Shell& s) { return s.side() == 0 || s.side() == largest().side(); });
+            shells_, [&](const Shell& s) { return s.side() == 0 || s.side() == side; });
+        result_.are_flat = side == 0;
         if (sets_.reversed.empty() && same_side) {
-            result_.outward = largest().side();
+            result_.outward = side;
         } else {
+            list_triangles();
             find_cavities();
             set_weights();
         }
@@ -202,21 +205,31 @@ public:
 private:
     void measure() {
         shells_.resize(sets_.count);
+        std::vector<std::uint32_t> first(sets_.count, ShellSets::kNone); // a vertex of each shell
+        const bool are_several = sets_.count > 1;                        // one has no neighbour
         for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-            if (sets_.shell_of[t] == ShellSets::kNone)
+            const std::uint32_t number = sets_.shell_of[t];
+            if (number == ShellSets::kNone)
                 continue;
-            Shell& shell = shells_[sets_.shell_of[t]];
-            shell.triangles.push_back(t);
+            Shell& shell = shells_[number];
             const auto& v = mesh_.triangles[t];
-            const Vec3& origin = mesh_.positions[mesh_.triangles[shell.triangles[0]][0]];
+            if (first[number] == ShellSets::kNone)
+                first[number] = v[0];
+            const Vec3& origin = mesh_.positions[first[number]];
             const Vec3 a = mesh_.positions[v[0]] - origin, b = mesh_.positions[v[1]] - origin,
                        c = mesh_.positions[v[2]] - origin;
             const double product = dot(a, cross(b, c));
             shell.volume += is_reversed(t) ? -product : product;
             shell.size += sum_of_sizes(a) * sum_of_sizes(b) * sum_of_sizes(c);
-            for (const std::uint32_t vertex : v)
-                extend(shell.box, mesh_.positions[vertex]);
+            for (std::size_t k = 0; k < 3 && are_several; ++k)
+                extend(shell.box, mesh_.positions[v.at(k)]);
         }
+    }
+
+    void list_triangles() {
+        for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+            if (sets_.shell_of[t] != ShellSets::kNone)
+                shells_[sets_.shell_of[t]].triangles.push_back(t);
     }
 
     [[nodiscard]] bool is_reversed(std::uint32_t triangle) const {
@@ -314,6 +327,7 @@ ShellOrientation orient_shells(const Mesh& mesh, const Topology& topology,
         result.has_parity_only = true;
     else
         result = ShellExamination(mesh, sets).run();
+    result.count = sets.count;
     if (result.outward == 0 && result.weights.empty())
         result.has_parity_only = true;
     if (dropped.empty())

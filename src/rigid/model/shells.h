@@ -31,6 +31,8 @@ struct ShellOrientation {
     std::vector<std::int8_t> weights;
     /// Two shells may have a common part: then faces of one may lie inside the solid.
     bool may_overlap = false;
+    bool are_flat = false;   ///< no shell has a volume
+    std::uint32_t count = 0; ///< of shells
 };
 
 /// In          dropped: by triangle, those that are no part of the surface; may be empty. The others

@@ -4,11 +4,14 @@
 #include "rigid/model/clean_surface.h"
 #include "rigid/model/open_solids.h"
 #include "rigid/model/shells.h"
+#include "rigid/model/winding_vote.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 namespace abut {
 
@@ -20,12 +23,13 @@ Triangle triangle(const Mesh& mesh, std::uint32_t i) {
 }
 
 /// Takes over how the shells of a closed surface bound the solid.
-void orient(Solid& s, const Mesh& mesh, const std::vector<bool>& dropped) {
+ShellOrientation orient(Solid& s, const Mesh& mesh, const std::vector<bool>& dropped) {
     ShellOrientation shells = orient_shells(mesh, s.topology, dropped);
     s.outward = shells.outward;
     s.weights = std::move(shells.weights);
     s.has_parity_only = shells.has_parity_only;
     s.may_overlap = shells.may_overlap;
+    return shells;
 }
 
 /// Gives the triangles of open components that bound a solid but for T-junctions their weight.
@@ -39,8 +43,8 @@ void add_open(Solid& s, const Mesh& mesh, const std::vector<OpenSolid>& solids) 
         s.weights.assign(mesh.triangles.size(),
                          static_cast<std::int8_t>(any_closed ? s.outward : 0));
     for (const OpenSolid& open : solids)
-        for (const std::uint32_t t : open.triangles)
-            s.weights[t] = static_cast<std::int8_t>(open.outward);
+        for (std::size_t i = 0; i < open.triangles.size(); ++i)
+            s.weights[open.triangles[i]] = open.weights[i];
     const bool any_out = std::ranges::find(s.weights, 1) != s.weights.end(),
                any_in = std::ranges::find(s.weights, -1) != s.weights.end();
     s.outward = any_out && any_in ? 0 : any_out ? 1 : -1;
@@ -49,14 +53,31 @@ void add_open(Solid& s, const Mesh& mesh, const std::vector<OpenSolid>& solids) 
         s.weights.clear();
 }
 
+/// Takes a whole mesh as one solid with T-junctions, if it is one. Then a part of it that is closed may
+/// have a face of its neighbour: where two solids share edges, either may have been peeled.
+void take_whole(const Mesh& mesh, const Topology& topology, CleanSurface& clean, OpenSolids& open) {
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+        if (!std::ranges::binary_search(clean.copies, t))
+            all.push_back(t);
+    std::optional<SetWinding> found = winding_of(mesh, topology, all);
+    if (!found)
+        return;
+    clean.closed = false;
+    open = {};
+    open.solids.push_back({std::move(all), std::move(found->weights), found->may_overlap});
+}
+
 /// Examines a mesh with an edge that is not used by exactly two triangles.
 void examine_faulty(Solid& s, const Mesh& mesh) {
-    const CleanSurface clean = clean_surface(mesh, s.topology);
+    CleanSurface clean = clean_surface(mesh, s.topology);
     OpenSolids open = find_open_solids(mesh, s.topology, clean);
+    if (clean.closed && open.has_sheets)
+        take_whole(mesh, s.topology, clean, open);
     s.closed = s.solid = clean.closed;
     s.copies = clean.copies;
-    if (s.closed)
-        orient(s, mesh, clean.dropped);
+    if (s.closed && orient(s, mesh, clean.dropped).are_flat && !open.solids.empty())
+        s.closed = s.has_parity_only = s.may_overlap = false, s.weights.clear();
     add_open(s, mesh, open.solids);
     std::erase_if(s.copies, [&](std::uint32_t t) { return s.weight(t) != 0; });
     if (s.solid)
@@ -155,12 +176,18 @@ bool bounds_solid(const Mesh& mesh) {
 Solid examine_solid(const Mesh& mesh) {
     Solid s;
     s.topology = make_topology(mesh);
-    s.components = component_representatives(mesh, s.topology);
     s.closed = s.solid = is_closed(s.topology);
+    std::uint32_t shells = 0;
     if (s.closed)
-        orient(s, mesh, {});
+        shells = orient(s, mesh, {}).count;
     else
         examine_faulty(s, mesh);
+    // A triangle with two equal vertices has no edges; it may be a component by itself.
+    const bool all_have_edges = s.topology.half_edges.size() == 3 * mesh.triangles.size();
+    if (shells == 1 && all_have_edges)
+        s.components = {0};
+    else
+        s.components = component_representatives(mesh, s.topology);
     return s;
 }
 

@@ -1,8 +1,10 @@
 #include "rigid/model/solid_boundary.h"
 
 #include "core/parallel.h"
+#include "geometry/convex_polygon.h"
 #include "rigid/model/face_fragments.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace abut {
@@ -40,6 +42,8 @@ public:
 
     void add(const FaceFragments::Fragment& fragment) {
         const auto &over = fragment.sides.over, &under = fragment.sides.under;
+        if (std::min(over[0], under[0]) < 0)
+            backwards_ += area_of(fragment.corners);
         if (over[0] >= 1 && under[0] >= 1) {
             any_hidden_ = true;
             return;
@@ -56,6 +60,21 @@ public:
                                  fragment.corners.end());
         for (std::uint32_t i = 2; i < fragment.corners.size(); ++i)
             add({first, first + i - 1, first + i}, triangle, weight);
+    }
+
+    /// Whether the solid winds backwards beside faces that are no slits at T-junctions.
+    [[nodiscard]] bool contradicts() const {
+        if (solid_.closed || backwards_ == 0)
+            return false; // of a closed solid, cavities that overlap do
+        Box3 box;
+        double edges = 0;
+        for (const auto& t : mesh_.triangles)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Vec3 &p = mesh_.positions[t.at(k)], &q = mesh_.positions[t.at((k + 1) % 3)];
+                extend(box, p);
+                edges += length(q - p);
+            }
+        return backwards_ > kWindingRounding * length(box.upper - box.lower) * edges;
     }
 
     /// Null if nothing lies inside and each triangle counts as its solid says.
@@ -81,6 +100,7 @@ private:
     std::vector<std::uint32_t> source_;
     std::vector<std::int8_t> weight_;
     bool any_hidden_ = false, differs_ = false;
+    double backwards_ = 0; ///< area of faces beside which the solid winds backwards
 };
 
 } // namespace
@@ -95,6 +115,7 @@ BoundarySearch find_boundary(const Mesh& mesh, const Solid& solid) {
         FaceFragments fragments(std::move(distinct.mesh), std::move(distinct.faces));
         result.is_known =
             fragments.for_each([&](const FaceFragments::Fragment& f) { boundary.add(f); });
+        result.is_known = result.is_known && !boundary.contradicts();
         if (result.is_known)
             result.boundary = boundary.take(fragments.uncertainty());
     });

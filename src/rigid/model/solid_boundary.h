@@ -25,12 +25,14 @@ struct SolidBoundary {
 struct BoundarySearch {
     /// Null if the whole surface is the boundary, or if it is not known.
     std::shared_ptr<const SolidBoundary> boundary;
-    bool is_known = true; ///< false if it has too many parts (FaceFragments::for_each)
+    /// False if it has too many parts (FaceFragments::for_each), or if the solid has T-junctions and its
+    /// weights contradict each other: it winds backwards around a point.
+    bool is_known = true;
 };
 
 /// Finds the boundary of a solid.
 ///
-/// In          solid: of the mesh, closed and oriented.
+/// In          solid: of the mesh, and oriented.
 /// Accuracy    as FaceFragments.
 /// Cost        O(n log n + pairs of faces that meet).
 BoundarySearch find_boundary(const Mesh& mesh, const Solid& solid);
@@ -43,7 +45,7 @@ public:
         static const BoundarySearch whole{}, unknown{nullptr, false};
         if (!solid.may_overlap && !solid.has_sheets)
             return whole;
-        if (!solid.closed || !solid.is_oriented())
+        if (!solid.is_oriented())
             return unknown;
         std::call_once(once_, [&] { found_ = find_boundary(mesh, solid); });
         return found_;

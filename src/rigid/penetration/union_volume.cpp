@@ -1,6 +1,7 @@
 #include "rigid/penetration/union_volume.h"
 
 #include "rigid/model/face_fragments.h"
+#include "rigid/model/solid.h"
 #include "rigid/model/solid_boundary.h"
 
 #include <algorithm>
@@ -55,6 +56,12 @@ private:
     double area_error_ = 0;
 };
 
+/// How far the edges of a solid may miss each other.
+double slit_width(const WorldSolid& solid) {
+    const Box3 box = solid.world_box();
+    return solid.closed() ? 0 : kWindingRounding * length(box.upper - box.lower);
+}
+
 /// The triangles of two solids, relative to a point, with their weights.
 struct SolidFaces {
     Mesh mesh;
@@ -84,7 +91,7 @@ struct SolidFaces {
 std::optional<OverlapVolume> union_volume(const WorldSolid& solid) {
     const Box3 box = solid.world_box();
     const Vec3 origin = 0.5 * box.lower + 0.5 * box.upper;
-    VolumeSum sum(length(box.upper - box.lower), position_rounding(box));
+    VolumeSum sum(length(box.upper - box.lower), position_rounding(box) + slit_width(solid));
     // Weights are those of the stored triangles, which a mirroring transform turns over.
     const SolidBoundary& boundary = *solid.boundary();
     double stretch = 0;
@@ -104,8 +111,6 @@ std::optional<OverlapVolume> union_volume(const WorldSolid& solid) {
 }
 
 std::optional<OverlapVolume> union_overlap_volume(const WorldSolid& a, const WorldSolid& b) {
-    if (!a.closed() || !b.closed())
-        return std::nullopt;
     const Box3 box_a = a.world_box(), box_b = b.world_box();
     const Box3 common{max(box_a.lower, box_b.lower), min(box_a.upper, box_b.upper)};
     if (is_empty(common))
@@ -118,7 +123,7 @@ std::optional<OverlapVolume> union_overlap_volume(const WorldSolid& a, const Wor
     const double rounding = std::max(position_rounding(box_a), position_rounding(box_b));
     VolumeSum sum(
         2 * std::max(length(box_a.upper - box_a.lower), length(box_b.upper - box_b.lower)),
-        rounding);
+        rounding + slit_width(a) + slit_width(b));
     FaceFragments fragments(std::move(both.mesh), std::move(both.faces), rounding);
     const bool is_complete = fragments.for_each([&](const FaceFragments::Fragment& f) {
         const bool over = f.sides.over[0] >= 1 && f.sides.over[1] >= 1,

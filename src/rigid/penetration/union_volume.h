@@ -12,11 +12,12 @@ std::optional<OverlapVolume> union_volume(const WorldSolid& solid);
 /// The volume that two solids have in common, if shells of one of them overlap. It is the integral
 /// over the parts of all faces that have the common solid on one side only.
 ///
-/// In          closed solids whose orientation is known.
+/// In          solids whose orientation is known.
 /// Out         none if both have more than kMostOverlapTriangles triangles together, or if there
-///             are too many parts (FaceFragments::for_each); or if one has T-junctions.
+///             are too many parts (FaceFragments::for_each).
 /// Accuracy    |volume - true volume| <= error: rounding, also of positions; what lies between faces
-///             that coincide but for rounding; and parts narrower than FaceFragments cuts off.
+///             that coincide but for rounding; parts narrower than FaceFragments cuts off; and slits
+///             at T-junctions.
 /// Cost        O(n log n + pairs of faces that meet), and a ray for each part of a cut face.
 std::optional<OverlapVolume> union_overlap_volume(const WorldSolid& a, const WorldSolid& b);
 

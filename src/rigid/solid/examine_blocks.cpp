@@ -278,8 +278,8 @@ BlocksSolid examine_in_memory(const ModelBlocks& blocks) {
     result.closed = solid.closed, result.solid = solid.solid;
     result.outward = solid.outward;
     if (solid.may_overlap || solid.has_sheets)
-        result.boundary = solid.closed && solid.is_oriented() ? find_boundary(mesh, solid)
-                                                              : BoundarySearch{nullptr, false};
+        result.boundary =
+            solid.is_oriented() ? find_boundary(mesh, solid) : BoundarySearch{nullptr, false};
     result.weights = std::move(solid.weights);
     result.has_parity_only = solid.has_parity_only;
     return result;

@@ -108,6 +108,36 @@ TEST(TurnedUnions, CommonVolumes) {
     EXPECT_GT(unions, many(400) / 3);
 }
 
+/// Boxes with vertices in the middle of their edges and faces, many of them inside flush faces of the other
+/// solid. At an edge in the plane of a face, rounding decides where the edge passes the plane.
+TEST(TurnedUnions, VerticesInsideFlushFaces) {
+    Random random(3274);
+    int common_count = 0;
+    for (int i = 0; i < many(150); ++i) {
+        SCOPED_TRACE(i);
+        std::array<Cells, 2> cells;
+        std::array<Mesh, 2> meshes;
+        for (std::size_t k = 0; k < 2; ++k)
+            for (int boxes = random.integer(1, 3); boxes > 0; --boxes) {
+                const Shells box = random_shells(random, 1);
+                meshes.at(k) =
+                    joined(meshes.at(k), random.chance(0.6) ? subdivided(box.mesh) : box.mesh);
+                for (std::size_t c = 0; c < box.cells.filled.size(); ++c)
+                    cells.at(k).filled.at(c) |= box.cells.filled.at(c);
+            }
+        const int common = common_cells(cells[0], cells[1]);
+        common_count += common > 0 ? 1 : 0;
+        const Transform world = turned(random);
+        const Body a(meshes[0], world), b(meshes[1], world);
+        const auto found = overlap_volume(a.placed, b.placed);
+        ASSERT_TRUE(found);
+        ASSERT_LE(std::abs(found->volume - common), found->error);
+        const double far = std::abs(world.m[9]) + std::abs(world.m[10]) + std::abs(world.m[11]);
+        ASSERT_LE(found->error, 1e-6 + 1e-8 * far);
+    }
+    EXPECT_GT(common_count, many(150) / 3);
+}
+
 /// Contents, depths and volumes of one solid with turned vertices.
 TEST(TurnedUnions, InsideDepthAndVolume) {
     Random random(3272);

@@ -118,6 +118,41 @@ TEST(UnionOfShells, BoxesOnALattice) {
     EXPECT_GT(hidden, many(150) / 2);
 }
 
+/// Boxes that share faces, each turned inside out or not: cells of a grid of 2 by 2 by 2, so that no box
+/// has neighbours all around.
+TEST(UnionOfShells, BoxesThatShareFacesAndAreTurnedInsideOut) {
+    Random random(3210);
+    int mixed = 0;
+    for (int i = 0; i < many(60); ++i) {
+        SCOPED_TRACE(i);
+        Shells s;
+        int inwards = 0, boxes = 0;
+        const bool are_fine = random.chance(0.3);
+        for (int cell = 0; cell < 8; ++cell) {
+            if (!random.chance(0.7))
+                continue;
+            const Vec3 low{2.0 * (cell & 1) + 1, double(cell >> 1 & 1), double(cell >> 2)},
+                top = low + Vec3{2, 1, 1};
+            Mesh box = random_box_mesh(random, low, top);
+            if (are_fine)
+                box = subdivided(box);
+            const bool is_inwards = random.chance(0.5);
+            s.mesh = joined(s.mesh, is_inwards ? reversed(box) : box);
+            s.cells.set(low, top, true);
+            inwards += is_inwards ? 1 : 0, ++boxes;
+        }
+        if (boxes == 0)
+            continue;
+        mixed += inwards > 0 && inwards < boxes ? 1 : 0;
+        if (random.chance(0.5))
+            shuffle_triangles(random, s.mesh);
+        check(random, s, 40);
+        if (HasFatalFailure())
+            return;
+    }
+    EXPECT_GT(mixed, many(60) / 2);
+}
+
 TEST(UnionOfShells, InwardsAsAWholeAndInAnyOrder) {
     Random random(3202);
     for (int i = 0; i < many(40); ++i) {

@@ -119,14 +119,84 @@ TEST(TJunctionSolids, SheetsHideNone) {
     EXPECT_TRUE(examine_solid(hanging).has_sheets);
 }
 
-/// Solids that overlap one with T-junctions have no volume: what overlaps would count twice.
-TEST(TJunctionSolids, NoVolumeIsToldThatCountsTwice) {
-    const Mesh apart = joined(box_mesh({0, 0, 0}, {1, 1, 1}), box_with_t_junctions({2, 0, 0})),
-               over = joined(box_mesh({0, 0, 0}, {1, 1, 1}), box_with_t_junctions({0.5, 0, 0}));
-    const auto volume = solid_volume(Body(apart).placed);
-    ASSERT_TRUE(volume);
-    EXPECT_LE(std::abs(volume->volume - 2), volume->error);
-    EXPECT_FALSE(solid_volume(Body(over).placed));
+double volume_of(const Mesh& mesh) {
+    const Body body(mesh);
+    const auto volume = solid_volume(body.placed);
+    EXPECT_TRUE(volume);
+    if (!volume)
+        return -1;
+    EXPECT_LE(volume->error, 1e-3);
+    return volume->volume;
+}
+
+/// What overlaps counts once, however the solids are turned.
+TEST(TJunctionSolids, UnionsHaveAVolume) {
+    const Mesh unit = box_mesh({0, 0, 0}, {1, 1, 1});
+    EXPECT_NEAR(volume_of(joined(unit, box_with_t_junctions({2, 0, 0}))), 2, 1e-4);
+    for (const bool inwards : {false, true}) {
+        const auto other = [&](const Vec3& at) {
+            const Mesh m = box_with_t_junctions(at);
+            return inwards ? reversed(m) : m;
+        };
+        EXPECT_NEAR(volume_of(joined(unit, other({0.5, 0, 0}))), 1.5, 1e-4);
+        EXPECT_NEAR(volume_of(joined(box_with_t_junctions({0, 0, 0}), other({0.5, 0.25, 0}))),
+                    1.625, 1e-4);
+        // In an outer one: nothing is added if both face one way, else it is a cavity.
+        Mesh outer = box_with_t_junctions({-1, -1, -1});
+        for (Vec3& p : outer.positions)
+            p = 3.0 * p + Vec3{2, 2, 2};
+        EXPECT_NEAR(volume_of(joined(outer, other({0.5, 0.25, 0.5}))), inwards ? 26 : 27, 1e-3);
+        // Beside these, a third one that is turned inside out.
+        EXPECT_NEAR(volume_of(joined(joined(outer, other({0.5, 0.25, 0.5})),
+                                     reversed(box_with_t_junctions({5, 0, 0})))),
+                    27, 1e-3);
+    }
+}
+
+/// Two boxes that share a face or an edge are their union, whichever of them is turned inside out.
+TEST(TJunctionSolids, EachIsOrientedByItself) {
+    const Mesh unit = box_mesh({0, 0, 0}, {1, 1, 1});
+    const Transform askew({0.8, 0.6, 0, -0.6, 0.8, 0, 0, 0, 1, 3, -7, 2});
+    for (const Vec3& at : {Vec3{1, 0, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{0, 1, 0},
+                           Vec3{-1, 0, 0}, Vec3{1, 0, 1}, Vec3{1, 1, 1}})
+        for (int kind = 0; kind < 32; ++kind) {
+            SCOPED_TRACE(testing::Message() << at.x << ' ' << at.y << ' ' << at.z << ' ' << kind);
+            const bool closed_a = (kind & 1) != 0, closed_b = (kind & 2) != 0;
+            Mesh a = closed_a ? unit : box_with_t_junctions({0, 0, 0}),
+                 b = closed_b ? box_mesh(at, at + Vec3{1, 1, 1}) : box_with_t_junctions(at);
+            if ((kind & 4) != 0)
+                a = reversed(a);
+            if ((kind & 8) != 0)
+                b = reversed(b);
+            Mesh both = (kind & 16) != 0 ? with_merged_vertices(joined(a, b)) : joined(b, a);
+            EXPECT_NEAR(volume_of(both), 2, 1e-3);
+            const Model model(both);
+            EXPECT_EQ(contains(model, {}, {0.5, 0.4, 0.3}).side, Side::inside);
+            EXPECT_EQ(contains(model, {}, at + Vec3{0.5, 0.4, 0.3}).side, Side::inside);
+            EXPECT_EQ(contains(model, {}, at + Vec3{0.5, 0.4, 1.3}).side,
+                      at.z == -1 ? Side::inside : Side::outside);
+            EXPECT_NEAR(volume_of(transformed(both, askew)), 2, 1e-3);
+            const Body slab(box_mesh({-3, -3, 0.25}, {3, 3, 0.75})), body(both);
+            const auto common = overlap_volume(body.placed, slab.placed);
+            ASSERT_TRUE(common);
+            EXPECT_NEAR(common->volume, at.z == 0 ? 1 : 0.5, 1e-3);
+            EXPECT_LE(std::abs(common->volume - (at.z == 0 ? 1 : 0.5)), common->error);
+        }
+}
+
+/// A sheet that hangs by an edge or a vertex of a solid with T-junctions bounds nothing, and hides nothing.
+TEST(TJunctionSolids, SheetsThatHangByThemHideNone) {
+    const Mesh solid = box_with_t_junctions({0, 0, 0});
+    for (const Vec3& to : {Vec3{1, 0, 1}, Vec3{2, 0, 1}}) {
+        const Mesh sheet{{{1, 0, 0}, {2, 0, 0}, {2, 0, 1}, to}, {{0, 1, 2}, {0, 2, 3}}};
+        const Mesh all = joined(sheet, solid);
+        EXPECT_NEAR(volume_of(all), 1, 1e-4);
+        EXPECT_EQ(kind_between(all, box_mesh({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75})),
+                  ClashKind::contained);
+        const Model model(all);
+        EXPECT_EQ(contains(model, {}, {1.5, 0.1, 0.5}).side, Side::outside);
+        EXPECT_EQ(examine_solid(all).open.size(), to.x == 1 ? 2U : 1U);
+    }
 }
 
 } // namespace
