@@ -137,20 +137,34 @@ bool meet(const PlacedConvex& a, const PlacedConvex& b, PairWarmStart& warm_star
     return distance(a.shape.solid, a.world, b.shape.solid, b.world, options).distance == 0;
 }
 
+/// By how much searches for the distance of two convex bodies that start elsewhere may differ, relative
+/// to the distance and to the bodies' sizes: 2^-40 of the distance and some roundings (`is_tight`).
+constexpr double kSearchDoubt = 0x1p-38;
+
+/// Measures a convex body and a rounded one's core by `measure(warm_start)`, which returns the
+/// distance and more. Where rounding decides whether the bodies touch, it measures from scratch, so
+/// that earlier queries do not decide.
+template <typename Measure>
+auto measured_core(const PlacedConvex& a, const PlacedRounded& b, ConvexWarmStart& warm_start,
+                   const Measure& measure) {
+    auto found = measure(&warm_start);
+    const double touching = rounding_of(a, b), reach = a.shape.solid.data().reach;
+    const double apart = found.distance - b.shape.radius - touching;
+    if (found.distance > 0 &&
+        std::abs(apart) <= kSearchDoubt * (std::abs(found.distance) + reach + b.shape.radius))
+        found = measure(nullptr);
+    return found;
+}
+
 bool meet(const PlacedConvex& a, const PlacedRounded& b, PairWarmStart& warm_start) {
     const RoundedBox solid = placed(b.shape, b.world);
     const Core core = core_of(solid);
-    const double touching = rounding_of(a, b);
-    ConvexDistanceOptions options;
-    options.warm_start = &warm_start.solids;
-    const auto gap = [&] {
-        return distance(a.shape.solid, a.world, core.convex, core.world, options).distance -
-               solid.radius;
-    };
-    if (const double first = gap(); std::abs(first - touching) > 0.5 * touching)
-        return first < touching;
-    options.warm_start = nullptr; // where rounding decides, earlier queries must not
-    return gap() <= touching;
+    const ConvexGap gap = measured_core(a, b, warm_start.solids, [&](ConvexWarmStart* warm) {
+        ConvexDistanceOptions options;
+        options.warm_start = warm;
+        return distance(a.shape.solid, a.world, core.convex, core.world, options);
+    });
+    return gap.distance - solid.radius <= rounding_of(a, b);
 }
 
 bool meet(const PlacedSurface& a, const PlacedRounded& b, PairWarmStart& /*warm_start*/) {
@@ -208,13 +222,33 @@ BodyGap measure(const PlacedConvex& a, const PlacedConvex& b, double /*upper_bou
     return convex_gap(a.shape.solid, a.world, b.shape.solid, b.world, warm_start.solids);
 }
 
+/// Whether a capsule's axis or a box's face is across a direction, to rounding: then there are many
+/// closest points, and the start of a search decides which of them it finds.
+bool lies_across(const RoundedBox& core, const Vec3& direction) {
+    constexpr double kAcross = 0x1p-20; // the closest points of others are unique to 2^-20
+    for (std::size_t k = 0; k < 3; ++k)
+        if (core.half[k] > 0 && std::abs(dot(core.axis[k], direction)) <= kAcross)
+            return true;
+    return false;
+}
+
 BodyGap measure(const PlacedConvex& a, const PlacedRounded& b, double /*upper_bound*/,
                 Depths /*depths*/, PairWarmStart& warm_start) {
     const RoundedBox solid = placed(b.shape, b.world);
     const Core core = core_of(solid);
-    return with_radius(
-        convex_gap(a.shape.solid, a.world, core.convex, core.world, warm_start.solids),
-        solid.radius);
+    const auto gap_from = [&](ConvexWarmStart& start) {
+        return convex_gap(a.shape.solid, a.world, core.convex, core.world, start);
+    };
+    BodyGap gap = measured_core(a, b, warm_start.solids, [&](ConvexWarmStart* warm) {
+        ConvexWarmStart none;
+        return gap_from(warm != nullptr ? *warm : none);
+    });
+    // Bodies that touch are asked for by several queries.
+    if (gap.distance <= solid.radius + 2 * rounding_of(a, b) && lies_across(solid, gap.normal)) {
+        ConvexWarmStart none;
+        gap = gap_from(none);
+    }
+    return with_radius(gap, solid.radius);
 }
 
 /// Returns whether a part of a surface lies in a box, if the surface does not meet its faces.
