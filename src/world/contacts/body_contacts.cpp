@@ -179,11 +179,9 @@ void keep_within_margin(const PlacedBody& a, const PlacedBody& b, double margin,
     const auto begin = manifolds.begin() + static_cast<std::ptrdiff_t>(first);
     const double deepest = deepest_from(first, manifolds);
     // The triangles of a box are rounded in the world.
-    const double doubt =
-        2 * rounding +
-        (is_surface(a.shape) || is_surface(b.shape) ? world_rounding(a.world_from_body,
-                                                                     b.world_from_body)
-                                                    : 0);
+    const double doubt = 2 * rounding + (is_surface(a.shape) || is_surface(b.shape)
+                                             ? world_rounding(a.world_from_body, b.world_from_body)
+                                             : 0);
     if (deepest <= -margin + doubt && !is_within(a, b, margin, warm_start)) {
         manifolds.erase(begin, manifolds.end());
         return;

@@ -9,6 +9,7 @@
 #include "world/narrow_phase/contact_rounding.h"
 #include "world/narrow_phase/convex_gap.h"
 #include "world/narrow_phase/core_gap.h"
+#include "world/narrow_phase/model_gap.h"
 #include "world/narrow_phase/offset_surface.h"
 #include "world/narrow_phase/solid_gap.h"
 
@@ -83,31 +84,6 @@ Core core_of(const RoundedBox& solid) {
             : dimension(solid) == 1 ? segment
                                     : cube,
             offset_surface_of(solid).body_from_surface};
-}
-
-BodyGap from_rigid(const Gap& gap) {
-    BodyGap result{{},          {}, gap.distance,   gap.point_a,
-                   gap.point_b, {}, gap.triangle_a, gap.triangle_b,
-                   gap.status};
-    // If the bodies overlap, moving b along the normal brings its point to a's point.
-    const Vec3 way = gap.point_b - gap.point_a;
-    result.normal = normalized_or_zero(gap.distance < 0 ? -way : way);
-    return result;
-}
-
-BodyGap measure_models(const Model& a, const Transform& world_from_a, const Model& b,
-                       const Transform& world_from_b, double upper_bound, Depths depths,
-                       PairWarmStart& warm_start) {
-    DistanceOptions options;
-    options.upper_bound = std::max(upper_bound, 0.0);
-    options.signed_distance = depths == Depths::yes;
-    options.warm_start = &warm_start.surfaces;
-    BodyGap gap = from_rigid(distance(a, world_from_a, b, world_from_b, options));
-    // The depth of a point in a solid is a bound of the length of a separating motion, however
-    // exact it is.
-    if (gap.distance < 0)
-        gap.status = Status::bound_only;
-    return gap;
 }
 
 /// Subtracts a radius around b's core, which is a point, a segment or a box.
@@ -202,15 +178,15 @@ BodyGap measure(const PlacedSurface& a, const PlacedSurface& b, double upper_bou
                 PairWarmStart& warm_start) {
     // A search for a depth ends within its accuracy of it, at a number that the order decides.
     if (depths == Depths::yes && is_before(b, a))
-        return turned_round(
-            measure_models(b.shape, b.world, a.shape, a.world, upper_bound, depths, warm_start));
-    return measure_models(a.shape, a.world, b.shape, b.world, upper_bound, depths, warm_start);
+        return turned_round(model_gap(b.shape, b.world, a.shape, a.world, upper_bound, depths,
+                                      warm_start.surfaces));
+    return model_gap(a.shape, a.world, b.shape, b.world, upper_bound, depths, warm_start.surfaces);
 }
 
 BodyGap measure(const PlacedSurface& a, const PlacedConvex& b, double upper_bound, Depths depths,
                 PairWarmStart& warm_start) {
-    BodyGap gap =
-        measure_models(a.shape, a.world, b.shape.surface, b.world, upper_bound, depths, warm_start);
+    BodyGap gap = model_gap(a.shape, a.world, b.shape.surface, b.world, upper_bound, depths,
+                            warm_start.surfaces);
     // A surface wholly inside the solid may be far from its faces, but is in contact.
     if (gap.distance > 0 && meet(a, b, warm_start))
         gap.distance = 0, gap.normal = {};
@@ -274,9 +250,9 @@ BodyGap measure(const PlacedSurface& a, const PlacedRounded& b, double upper_bou
         return capsule_gap(a.shape, a.world, {axis_of(solid), solid.radius}, upper_bound, depths);
     default:
         const OffsetSurface faces = offset_surface_of(b.shape);
-        BodyGap gap = measure_models(a.shape, a.world, faces.surface,
-                                     compose(b.world, faces.body_from_surface), upper_bound, depths,
-                                     warm_start);
+        BodyGap gap =
+            model_gap(a.shape, a.world, faces.surface, compose(b.world, faces.body_from_surface),
+                      upper_bound, depths, warm_start.surfaces);
         // A surface wholly inside the box may be far from its faces, but is in contact. The faces of
         // the box are rounded.
         const bool is_clear = gap.distance > 0x1p-40 * (sum_of_sizes(solid.centre) + solid.half[0] +
