@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <utility>
@@ -29,7 +30,7 @@ struct ManifoldMemory {
     TriangleMeetings meetings;
     MeetingRegions regions;
     std::vector<std::uint32_t> part;
-    std::vector<TriangleMeeting> one_part;
+    std::vector<TriangleMeeting> one_part, facing;
 
     /// Frees what one huge pair has needed.
     void trim() {
@@ -37,8 +38,9 @@ struct ManifoldMemory {
         if (meetings.all.capacity() > kMostKept || meetings.points.capacity() > 4 * kMostKept ||
             meetings.faces.capacity() > 2 * kMostKept)
             meetings = {}, regions = {}; // the regions keep a list as long
-        if (part.capacity() > kMostKept || one_part.capacity() > kMostKept)
-            part = {}, one_part = {};
+        if (part.capacity() > kMostKept || one_part.capacity() > kMostKept ||
+            facing.capacity() > kMostKept)
+            part = {}, one_part = {}, facing = {};
     }
 };
 
@@ -116,14 +118,30 @@ public:
             poll_stop();
             while (end < all.size() && all[end].region == all[begin].region)
                 ++end;
-            add_region(all.subspan(begin, end - begin), memory);
+            add_region(without_beside(all.subspan(begin, end - begin), memory.facing), memory);
         }
+        nearest_ = std::sqrt(memory.meetings.nearest_sq);
         memory.trim();
-        // The outer border of a ring stands for the inner one too.
-        return std::move(manifolds_.empty() ? holes_ : manifolds_);
+        // A region without a direction is the border of another one, if there is one. The outer border
+        // of a ring stands for the inner one too.
+        return std::move(!manifolds_.empty() ? manifolds_ : !open_.empty() ? open_ : holes_);
     }
 
+    /// The distance of the nearest triangles, of those that are only near.
+    [[nodiscard]] double nearest() const { return nearest_; }
+
 private:
+    /// A region without faces around the corner, unless it has no others.
+    static std::span<const TriangleMeeting> without_beside(std::span<const TriangleMeeting> region,
+                                                           std::vector<TriangleMeeting>& facing) {
+        const auto is_beside = [](const TriangleMeeting& m) { return m.is_beside; };
+        if (std::none_of(region.begin(), region.end(), is_beside))
+            return region;
+        facing.clear();
+        std::remove_copy_if(region.begin(), region.end(), std::back_inserter(facing), is_beside);
+        return facing.empty() ? region : std::span<const TriangleMeeting>(facing);
+    }
+
     void add_region(std::span<const TriangleMeeting> region, ManifoldMemory& memory) {
         const RegionFrame frame = region_frame(a_, b_, region, true);
         if ((frame.only_touches || frame.is_flush) && (a_.is_oriented() || b_.is_oriented()) &&
@@ -209,7 +227,7 @@ private:
         }
         if (at_best == Status::bound_only)
             m.status = at_best;
-        (frame.is_hole ? holes_ : manifolds_).push_back(m);
+        (frame.is_hole ? holes_ : frame.is_open ? open_ : manifolds_).push_back(m);
     }
 
     const PlacedPair& pair_;
@@ -219,7 +237,8 @@ private:
     double margin_;
     ManifoldSide a_, b_;
     std::vector<std::uint64_t> last_names_;
-    std::vector<ModelManifold> manifolds_, holes_;
+    std::vector<ModelManifold> manifolds_, holes_, open_;
+    double nearest_ = HUGE_VAL;
     std::optional<Depth> depth_;   ///< computed when a region needs it
     std::vector<bool> depth_used_; ///< the regions of depth_ that have a manifold
 };
@@ -227,6 +246,15 @@ private:
 bool any_meets(const std::vector<Contact>& pairs) {
     return std::any_of(pairs.begin(), pairs.end(),
                        [](const Contact& c) { return c.kind != TriangleContact::none; });
+}
+
+/// The least gap of the points of manifolds.
+double least_gap(const std::vector<ModelManifold>& manifolds) {
+    double least = HUGE_VAL;
+    for (const ModelManifold& m : manifolds)
+        for (std::uint32_t i = 0; i < m.count; ++i)
+            least = std::min(least, -m.points[i].depth);
+    return least;
 }
 
 /// The manifold of the nearest pair of triangles. A solid inside the other looks at the back of its
@@ -269,10 +297,15 @@ std::vector<ModelManifold> manifolds_of(const Model& a, const Transform& world_f
     std::vector<ModelManifold> manifolds;
     if (inside == Inside::in_contact && !any_meets(pairs))
         manifolds = contained_manifold(a, world_from_a, b, world_from_b);
-    if (manifolds.empty() && !pairs.empty())
-        manifolds =
-            ManifoldFinder(pair, a, b, pair.triangle_a(pairs[0].pair.a)[0], options).find(pairs);
-    if (manifolds.empty() && !pairs.empty() && inside == Inside::apart)
+    double nearest = HUGE_VAL;
+    if (manifolds.empty() && !pairs.empty()) {
+        ManifoldFinder finder(pair, a, b, pair.triangle_a(pairs[0].pair.a)[0], options);
+        manifolds = finder.find(pairs);
+        nearest = finder.nearest();
+    }
+    // Faces that look away have no region, also where they are the nearest ones.
+    if (!pairs.empty() && inside == Inside::apart && !any_meets(pairs) &&
+        !(least_gap(manifolds) <= (1 + 0x1p-20) * nearest))
         manifolds.push_back(manifold_of_nearest(pair, pairs));
     name_regions(manifolds, options.last);
     return manifolds;

@@ -20,6 +20,9 @@ struct RegionFrame {
     bool is_flush = false;
     /// The curve goes around a place where the bodies do not meet: the inner border of a ring.
     bool is_hole = false;
+    /// No feature tells the normal: the triangles touch at vertices or along parallel edges only. It is
+    /// a mean of the faces' normals then.
+    bool is_open = false;
 
     /// The place of a point seen along the normal, relative to the centre.
     [[nodiscard]] double right(const Vec3& p) const { return dot(across, p - centre); }
@@ -31,8 +34,8 @@ struct RegionFrame {
 /// Crossing surfaces: the direction of the vector area that their common curve encloses. If the
 /// curve encloses little for its length, or the region is a part of a longer curve, the mean normal
 /// of the flatter side. If many faces of one side within 30 degrees of that have the same normal,
-/// it is theirs. Touching faces: the normal of the common area. Near triangles: the mean direction
-/// of their gaps.
+/// it is theirs. Touching faces: the normal of the common area; else the mean direction across the
+/// features that touch. Near triangles: the mean direction of their gaps.
 ///
 /// In          region: not empty; `whole`: not a part of a longer curve.
 RegionFrame region_frame(const ManifoldSide& a, const ManifoldSide& b,

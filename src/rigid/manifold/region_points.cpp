@@ -162,7 +162,12 @@ private:
     }
 
     void collect_fixed(const FixedPoint& p) {
-        const double depth = dot(frame_.normal, p.a - p.b);
+        // A gap straight across the normal is that of another face, as of the second wall of a corner.
+        // Along the normal it would look like a touch.
+        constexpr double kCosOfGap = 0x1p-30, kSlightGap = 0x1p8; // roundings
+        const double depth = dot(frame_.normal, p.a - p.b), gap = length(p.a - p.b);
+        if (gap > kSlightGap * rounding_ && std::abs(depth) < kCosOfGap * gap + rounding_)
+            return;
         PointCandidate c = candidate(PointCandidate::Kind::fixed, p.a, p.feature);
         c.on_b = p.b;
         take_everywhere(depth >= -rounding_ ? fixed_ : gaps_, frame_.right(p.a), frame_.up(p.a), c);

@@ -2,7 +2,6 @@
 
 #include "geometry/point_triangle_distance.h"
 #include "geometry/triangle_triangle_distance.h"
-#include "rigid/manifold/manifold_side.h"
 
 #include <algorithm>
 #include <array>
@@ -151,6 +150,11 @@ Fan fan_at(const ManifoldSide& side, const Vec3& point, double radius) {
     return fan;
 }
 
+/// Bound of the coordinates in the world, and of the models' extents.
+double size_of_places(const ManifoldSide& a, const ManifoldSide& b) {
+    return sum_of_sizes(a.model().origin()) + a.model().reach() + b.model().reach();
+}
+
 /// Two models at a place where they touch.
 class TouchingPlace {
 public:
@@ -252,6 +256,10 @@ bool has_inverse(const Transform& t) {
 
 } // namespace
 
+double rounding_of_places(const ManifoldSide& a, const ManifoldSide& b) {
+    return kPlaceRounding * size_of_places(a, b);
+}
+
 TouchingDirection touching_direction(const TrianglesInTouch& triangles, double rounding) {
     const Triangle &ta = triangles.a, &tb = triangles.b;
     const Vec3 &na = triangles.normal_a, &nb = triangles.normal_b;
@@ -291,19 +299,17 @@ TouchingDirection touching_direction(const TrianglesInTouch& triangles, double r
 
 std::optional<Vec3> direction_of_touching(const Model& a, const Transform& world_from_a,
                                           const Model& b, const Transform& world_from_b,
-                                          const Vec3& point_a, const Vec3& point_b,
-                                          const Vec3& way) {
+                                          const Vec3& point_a, const Vec3& point_b, const Vec3& way,
+                                          double distance) {
     if (!has_inverse(world_from_a) || !has_inverse(world_from_b))
         return std::nullopt;
-    const double far_out = sum_of_sizes(point_a), distance = length(way);
     const ManifoldSide side_a(a, world_from_a, point_a), side_b(b, world_from_b, point_a);
-    const double size = far_out + side_a.model().reach() + side_b.model().reach();
-    if (distance > kTellsWay * size)
+    if (std::max(distance, length(way)) > kTellsWay * size_of_places(side_a, side_b))
         return std::nullopt;
-    const double rounding = kPlaceRounding * size;
+    const double rounding = rounding_of_places(side_a, side_b);
     const Vec3 n = TouchingPlace(side_a, side_b, {}, point_b - point_a, rounding).direction();
     // A direction along which they are less far apart is not that of the distance.
-    if (n == Vec3{} || dot(n, way) < distance - 2 * kFlat * rounding)
+    if (n == Vec3{} || dot(n, way) < length(way) - 2 * kFlat * rounding)
         return std::nullopt;
     return n;
 }

@@ -3,12 +3,16 @@
 #include <abut/model.h>
 
 #include "math/vector.h"
+#include "rigid/manifold/manifold_side.h"
 
 #include <optional>
 
 // Directions of surfaces that touch, or are apart by little more than rounding. The vector between
 // their closest points says nothing then; the faces and edges there do.
 namespace abut {
+
+/// Bound of the rounding of a position of either side.
+double rounding_of_places(const ManifoldSide& a, const ManifoldSide& b);
 
 /// Two triangles, their outward unit normals, and whether these tell the inside from the outside.
 struct TrianglesInTouch {
@@ -33,7 +37,7 @@ TouchingDirection touching_direction(const TrianglesInTouch& triangles, double r
 /// The unit vector from a to b across the faces and edges of two models at a place where they touch.
 ///
 /// In          point_a, point_b: of the surfaces, world frame; way: between them, from a to b; if the
-///             models overlap, from b to a.
+///             models overlap, from b to a. distance: of the models, or their depth.
 /// Out         none if the way itself tells the direction: it is clear of rounding, or no face or edge
 ///             lies across it. If it is zero, any direction that parts the surfaces there; if none
 ///             does, as in a corner, that of the largest area that they share.
@@ -41,7 +45,7 @@ TouchingDirection touching_direction(const TrianglesInTouch& triangles, double r
 /// Cost        the triangles at the place, of which at most 64 of each model count.
 std::optional<Vec3> direction_of_touching(const Model& a, const Transform& world_from_a,
                                           const Model& b, const Transform& world_from_b,
-                                          const Vec3& point_a, const Vec3& point_b,
-                                          const Vec3& way);
+                                          const Vec3& point_a, const Vec3& point_b, const Vec3& way,
+                                          double distance);
 
 } // namespace abut

@@ -2,10 +2,12 @@
 
 #include "geometry/triangle_triangle_distance.h"
 #include "geometry/triangle_triangle_segment.h"
+#include "rigid/manifold/touching_direction.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace abut {
@@ -37,6 +39,11 @@ private:
     LeafTriangles leaves_;
     double margin_sq_;
 };
+
+/// Whether two unit vectors are at right angles, as those of flush faces are.
+bool is_across(const Vec3& v, const Vec3& w) {
+    return std::abs(dot(v, w)) < 0x1p-30;
+}
 
 struct CommonSegment {
     Vec3 from, to;
@@ -112,7 +119,7 @@ class MeetingWriter {
 public:
     MeetingWriter(const ManifoldSide& a, const ManifoldSide& b, double margin,
                   TriangleMeetings& meetings)
-        : a_(a), b_(b), margin_(margin), meetings_(meetings) {}
+        : a_(a), b_(b), margin_(margin), rounding_(rounding_of_places(a, b)), meetings_(meetings) {}
 
     void add(const Contact& contact) {
         TriangleMeeting m;
@@ -130,6 +137,8 @@ public:
             constexpr double kCoplanarSq = 0x1p-80;
             if (length_sq(cross(m.normal_a, m.normal_b)) < kCoplanarSq)
                 m.to = m.from, m.weight = 0;
+            if (!(m.weight > 0))
+                add_direction(m, fa, fb);
         } else if (contact.kind == TriangleContact::touch) {
             add_touching(m, fa, fb);
         } else if (!add_near(m, fa, fb)) {
@@ -148,12 +157,15 @@ private:
             meetings_.points.push_back({c[k], c[k], name_of(c[k], m.pair, k, fa, fb)});
             m.weight += length(c[k] - c[(k + 1) % common.count]);
         }
-        if (common.count < 3 || !(dot(m.normal_a, m.normal_b) < 0))
-            return;
-        double area = 0;
-        for (std::uint32_t k = 2; k < common.count; ++k)
-            area += 0.5 * length(cross(c[k - 1] - c[0], c[k] - c[0]));
-        m.common_area = area * m.normal_a;
+        add_direction(m, fa, fb);
+    }
+
+    void add_direction(TriangleMeeting& m, const MeetingFace& fa, const MeetingFace& fb) const {
+        const TouchingDirection found =
+            touching_direction({fa.corners, fb.corners, fa.unit_normal, fb.unit_normal,
+                                a_.is_oriented(), b_.is_oriented()},
+                               rounding_);
+        m.common_area = found.area, m.across = found.across;
     }
 
     /// A vertex that lies at the point names it; else the two triangles do.
@@ -175,12 +187,20 @@ private:
     bool add_near(TriangleMeeting& m, const MeetingFace& fa, const MeetingFace& fb) {
         const Triangle &ta = fa.corners, &tb = fb.corners;
         const ClosestPoints nearest = triangle_triangle_distance(ta, tb);
-        const Vec3 gap = normalized_or_zero(nearest.b - nearest.a);
+        meetings_.nearest_sq = std::min(meetings_.nearest_sq, nearest.distance_sq);
+        constexpr double kSlight = 16; // roundings
+        m.is_slight = nearest.distance_sq <= kSlight * kSlight * rounding_ * rounding_;
+        if (m.is_slight)
+            add_direction(m, fa, fb);
+        const Vec3 gap = m.is_slight ? m.across : normalized_or_zero(nearest.b - nearest.a);
         constexpr double kLooksAway = 0.5; // by more than 120 degrees
         if ((a_.is_oriented() && dot(gap, m.normal_a) < -kLooksAway) ||
             (b_.is_oriented() && dot(gap, m.normal_b) > kLooksAway))
             return false;
         m.from = nearest.a, m.to = nearest.b;
+        const bool across_a = is_across(gap, m.normal_a), across_b = is_across(gap, m.normal_b);
+        m.is_beside = !m.is_slight && (a_.is_oriented() && b_.is_oriented() ? across_a || across_b
+                                                                            : across_a && across_b);
         // A pair whose gap equals the margin still has a direction.
         m.weight = std::max(margin_ - std::sqrt(nearest.distance_sq), 0x1p-40 * margin_);
         const double most_sq = margin_ * margin_;
@@ -199,6 +219,7 @@ private:
     const ManifoldSide& a_;
     const ManifoldSide& b_;
     double margin_;
+    double rounding_;
     TriangleMeetings& meetings_;
     RecentFaces recent_a_, recent_b_;
 };
@@ -227,6 +248,7 @@ void describe_meetings(const ManifoldSide& a, const ManifoldSide& b,
     meetings.all.clear();
     meetings.points.clear();
     meetings.faces.clear();
+    meetings.nearest_sq = std::numeric_limits<double>::infinity();
     meetings.all.reserve(pairs.size());
     MeetingWriter writer(a, b, margin, meetings);
     SearchSteps steps;

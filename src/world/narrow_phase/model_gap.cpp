@@ -6,6 +6,7 @@
 #include "rigid/manifold/touching_direction.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace abut {
 
@@ -33,8 +34,9 @@ BodyGap model_gap(const Model& a, const Transform& world_from_a, const Model& b,
     BodyGap gap = from_rigid(found, normalized_or_zero(way));
     const bool has_points = found.distance <= options.upper_bound;
     if (has_points && (found.distance > 0 || depths == Depths::yes))
-        if (const auto normal = direction_of_touching(a, world_from_a, b, world_from_b,
-                                                      found.point_a, found.point_b, way))
+        if (const auto normal =
+                direction_of_touching(a, world_from_a, b, world_from_b, found.point_a,
+                                      found.point_b, way, std::abs(found.distance)))
             gap.normal = *normal;
     // The depth of a point in a solid is a bound of the length of a separating motion, however
     // exact it is.
