@@ -9,6 +9,7 @@
 #include "rigid/manifold/region_names.h"
 #include "rigid/manifold/region_points.h"
 #include "rigid/manifold/surface_manifolds.h"
+#include "rigid/manifold/touching_direction.h"
 #include "rigid/manifold/triangle_meeting.h"
 #include "rigid/pair/separating_plane.h"
 #include "rigid/solid/containment.h"
@@ -122,11 +123,9 @@ public:
         }
         nearest_ = std::sqrt(memory.meetings.nearest_sq);
         memory.trim();
-        // A region without a direction is the border of another one, if there is one. The outer border
-        // of a ring stands for the inner one too.
-        return std::move(!manifolds_.empty() ? manifolds_ : !open_.empty() ? open_ : holes_);
+        // The outer border of a ring stands for the inner one too.
+        return std::move(manifolds_.empty() ? holes_ : manifolds_);
     }
-
     /// The distance of the nearest triangles, of those that are only near.
     [[nodiscard]] double nearest() const { return nearest_; }
 
@@ -172,7 +171,8 @@ private:
             depth_ = depth_of(model_a_, pair_.world_from_a(), model_b_, pair_.world_from_b());
             depth_used_.assign(depth_->regions.size(), false);
         }
-        if (!depth_->interpenetrate)
+        // A depth that may be rounding tells no direction.
+        if (!depth_->interpenetrate || !(depth_->depth > slight_depth()))
             return false;
         const std::optional<std::size_t> k = deepest_of(region);
         if (k) {
@@ -189,14 +189,19 @@ private:
         return frame.only_touches;
     }
 
-    /// The deepest region of depth_ that shares a triangle pair with a region; none if all of those
-    /// have depth 0.
+    [[nodiscard]] double slight_depth() const {
+        constexpr double kSlightDepth = 16; // roundings
+        return kSlightDepth * rounding_of_places(a_, b_);
+    }
+
+    /// The deepest region of depth_ that shares a triangle pair with a region; none if the
+    /// depths of all of those may be rounding.
     [[nodiscard]] std::optional<std::size_t>
     deepest_of(std::span<const TriangleMeeting> region) const {
         std::optional<std::size_t> best;
         for (std::size_t k = 0; k < depth_->regions.size(); ++k) {
             const ContactRegion& found = depth_->regions[k];
-            if (found.depth > (best ? depth_->regions[*best].depth : 0) &&
+            if (found.depth > (best ? depth_->regions[*best].depth : slight_depth()) &&
                 found.direction != Vec3{} &&
                 std::any_of(region.begin(), region.end(), [&](const TriangleMeeting& m) {
                     return std::binary_search(found.pairs.begin(), found.pairs.end(), m.pair);
@@ -227,7 +232,7 @@ private:
         }
         if (at_best == Status::bound_only)
             m.status = at_best;
-        (frame.is_hole ? holes_ : frame.is_open ? open_ : manifolds_).push_back(m);
+        (frame.is_hole ? holes_ : manifolds_).push_back(m);
     }
 
     const PlacedPair& pair_;
@@ -237,7 +242,7 @@ private:
     double margin_;
     ManifoldSide a_, b_;
     std::vector<std::uint64_t> last_names_;
-    std::vector<ModelManifold> manifolds_, holes_, open_;
+    std::vector<ModelManifold> manifolds_, holes_;
     double nearest_ = HUGE_VAL;
     std::optional<Depth> depth_;   ///< computed when a region needs it
     std::vector<bool> depth_used_; ///< the regions of depth_ that have a manifold

@@ -1,5 +1,7 @@
 #include "rigid/manifold/region_frame.h"
 
+#include "rigid/manifold/touching_direction.h"
+
 #include <cmath>
 #include <numbers>
 
@@ -157,6 +159,7 @@ RegionFrame region_frame(const ManifoldSide& a, const ManifoldSide& b,
     frame.centre = centre_of(region, s);
     frame.crosses = s.length > 0;
     frame.is_flush = frame.crosses && s.is_flush;
+    frame.is_flat = !frame.crosses && s.common_area != Vec3{};
     frame.only_touches = !frame.crosses && s.touches && s.common_area == Vec3{};
     if (frame.crosses)
         frame.normal = normal_of_curve(region, s, frame.centre, whole);
@@ -168,8 +171,10 @@ RegionFrame region_frame(const ManifoldSide& a, const ManifoldSide& b,
     else
         frame.normal =
             snapped(normalized_or_zero(s.gaps), region, TriangleContact::none, s.gap_weight);
-    frame.is_open =
-        !frame.crosses && s.common_area == Vec3{} && s.across == Vec3{} && s.gaps == Vec3{};
+    // Triangles that touch at vertices or along edges only: those around them may tell more.
+    if (!frame.crosses && s.common_area == Vec3{} && s.across == Vec3{} && s.gaps == Vec3{})
+        if (const Vec3 n = direction_at(a, b, region[0].from, region[0].to); n != Vec3{})
+            frame.normal = n;
     if ((frame.crosses || s.touches) && !(a.is_oriented() && b.is_oriented()))
         frame.normal = turned_to_outside(frame.normal, a, b, frame.centre);
     if (frame.normal == Vec3{})

@@ -18,11 +18,9 @@ struct RegionFrame {
     /// It crosses, and holds faces that lie in one plane and look the same way: parts of its curve
     /// may be missing, so its normal is in doubt.
     bool is_flush = false;
+    bool is_flat = false; ///< the normal is that of faces that lie on each other
     /// The curve goes around a place where the bodies do not meet: the inner border of a ring.
     bool is_hole = false;
-    /// No feature tells the normal: the triangles touch at vertices or along parallel edges only. It is
-    /// a mean of the faces' normals then.
-    bool is_open = false;
 
     /// The place of a point seen along the normal, relative to the centre.
     [[nodiscard]] double right(const Vec3& p) const { return dot(across, p - centre); }
@@ -35,7 +33,7 @@ struct RegionFrame {
 /// curve encloses little for its length, or the region is a part of a longer curve, the mean normal
 /// of the flatter side. If many faces of one side within 30 degrees of that have the same normal,
 /// it is theirs. Touching faces: the normal of the common area; else the mean direction across the
-/// features that touch. Near triangles: the mean direction of their gaps.
+/// features that touch, or what the models' triangles tell there. Near triangles: the mean direction of their gaps.
 ///
 /// In          region: not empty; `whole`: not a part of a longer curve.
 RegionFrame region_frame(const ManifoldSide& a, const ManifoldSide& b,

@@ -297,6 +297,11 @@ TouchingDirection touching_direction(const TrianglesInTouch& triangles, double r
     return found;
 }
 
+Vec3 direction_at(const ManifoldSide& a, const ManifoldSide& b, const Vec3& point_a,
+                  const Vec3& point_b) {
+    return TouchingPlace(a, b, point_a, point_b, rounding_of_places(a, b)).direction();
+}
+
 std::optional<Vec3> direction_of_touching(const Model& a, const Transform& world_from_a,
                                           const Model& b, const Transform& world_from_b,
                                           const Vec3& point_a, const Vec3& point_b, const Vec3& way,
@@ -307,7 +312,7 @@ std::optional<Vec3> direction_of_touching(const Model& a, const Transform& world
     if (std::max(distance, length(way)) > kTellsWay * size_of_places(side_a, side_b))
         return std::nullopt;
     const double rounding = rounding_of_places(side_a, side_b);
-    const Vec3 n = TouchingPlace(side_a, side_b, {}, point_b - point_a, rounding).direction();
+    const Vec3 n = direction_at(side_a, side_b, {}, point_b - point_a);
     // A direction along which they are less far apart is not that of the distance.
     if (n == Vec3{} || dot(n, way) < length(way) - 2 * kFlat * rounding)
         return std::nullopt;

@@ -34,6 +34,11 @@ struct TouchingDirection {
 /// Out         faces that look the same way share no area, unless one is of an open surface.
 TouchingDirection touching_direction(const TrianglesInTouch& triangles, double rounding);
 
+/// The unit vector from a to b across the faces and edges at a place where two sides touch; zero if
+/// nothing lies there. Points in the frame of the sides. As direction_of_touching.
+Vec3 direction_at(const ManifoldSide& a, const ManifoldSide& b, const Vec3& point_a,
+                  const Vec3& point_b);
+
 /// The unit vector from a to b across the faces and edges of two models at a place where they touch.
 ///
 /// In          point_a, point_b: of the surfaces, world frame; way: between them, from a to b; if the

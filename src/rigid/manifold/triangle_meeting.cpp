@@ -40,10 +40,10 @@ private:
     double margin_sq_;
 };
 
-/// Whether two unit vectors are at right angles, as those of flush faces are.
-bool is_across(const Vec3& v, const Vec3& w) {
-    return std::abs(dot(v, w)) < 0x1p-30;
-}
+/// A length of at most this many roundings of a position may be rounding.
+constexpr double kSlight = 16;
+/// The direction of a gap of at most this many roundings is rounded by 2^-10 or more.
+constexpr double kSlightGap = 0x1p10;
 
 struct CommonSegment {
     Vec3 from, to;
@@ -137,8 +137,10 @@ public:
             constexpr double kCoplanarSq = 0x1p-80;
             if (length_sq(cross(m.normal_a, m.normal_b)) < kCoplanarSq)
                 m.to = m.from, m.weight = 0;
-            if (!(m.weight > 0))
-                add_direction(m, fa, fb);
+            // Triangles touch if they pass each other by no more than rounding.
+            if (!(m.weight > kSlight * rounding_) || hardly_passes(fa.corners, fb) ||
+                hardly_passes(fb.corners, fa))
+                add_touching(m, s, fa, fb);
         } else if (contact.kind == TriangleContact::touch) {
             add_touching(m, fa, fb);
         } else if (!add_near(m, fa, fb)) {
@@ -160,11 +162,30 @@ private:
         add_direction(m, fa, fb);
     }
 
-    void add_direction(TriangleMeeting& m, const MeetingFace& fa, const MeetingFace& fb) const {
+    /// Whether a triangle lies on one side of a face's plane, to rounding.
+    [[nodiscard]] bool hardly_passes(const Triangle& t, const MeetingFace& face) const {
+        const auto heights = heights_over(face.unit_normal, face.corners[0], t);
+        const auto [low, high] = std::minmax({heights[0], heights[1], heights[2]});
+        return face.unit_normal != Vec3{} && std::min(high, -low) <= kSlight * rounding_;
+    }
+
+    /// As above, for triangles that cross, but only touch to rounding.
+    void add_touching(TriangleMeeting& m, const CommonSegment& s, const MeetingFace& fa,
+                      const MeetingFace& fb) {
+        m.kind = TriangleContact::touch;
+        meetings_.points.push_back({s.from, s.from, name_of(s.from, m.pair, 0, fa, fb)});
+        if (s.to != s.from)
+            meetings_.points.push_back({s.to, s.to, name_of(s.to, m.pair, 1, fa, fb)});
+        m.to = m.from;
+        add_direction(m, fa, fb);
+    }
+
+    void add_direction(TriangleMeeting& m, const MeetingFace& fa, const MeetingFace& fb,
+                       double gap = 0) const {
         const TouchingDirection found =
             touching_direction({fa.corners, fb.corners, fa.unit_normal, fb.unit_normal,
                                 a_.is_oriented(), b_.is_oriented()},
-                               rounding_);
+                               rounding_ + 0.125 * gap);
         m.common_area = found.area, m.across = found.across;
     }
 
@@ -172,11 +193,14 @@ private:
     [[nodiscard]] std::uint64_t name_of(const Vec3& p, const TrianglePair& pair,
                                         std::uint32_t corner, const MeetingFace& fa,
                                         const MeetingFace& fb) const {
+        const auto is_at = [&](const Vec3& vertex) {
+            return max_abs(vertex - p) <= kSlight * rounding_;
+        };
         for (std::size_t k = 0; k < 3; ++k)
-            if (fb.corners[k] == p)
+            if (is_at(fb.corners[k]))
                 return point_name::vertex_b(fb.vertices[k]);
         for (std::size_t k = 0; k < 3; ++k)
-            if (fa.corners[k] == p)
+            if (is_at(fa.corners[k]))
                 return point_name::vertex_a(fa.vertices[k]);
         return point_name::triangles(pair, corner);
     }
@@ -188,21 +212,24 @@ private:
         const Triangle &ta = fa.corners, &tb = fb.corners;
         const ClosestPoints nearest = triangle_triangle_distance(ta, tb);
         meetings_.nearest_sq = std::min(meetings_.nearest_sq, nearest.distance_sq);
-        constexpr double kSlight = 16; // roundings
-        m.is_slight = nearest.distance_sq <= kSlight * kSlight * rounding_ * rounding_;
+        const double distance = std::sqrt(nearest.distance_sq);
+        m.is_slight = distance <= kSlightGap * rounding_;
         if (m.is_slight)
-            add_direction(m, fa, fb);
+            add_direction(m, fa, fb, distance);
         const Vec3 gap = m.is_slight ? m.across : normalized_or_zero(nearest.b - nearest.a);
         constexpr double kLooksAway = 0.5; // by more than 120 degrees
         if ((a_.is_oriented() && dot(gap, m.normal_a) < -kLooksAway) ||
             (b_.is_oriented() && dot(gap, m.normal_b) > kLooksAway))
             return false;
         m.from = nearest.a, m.to = nearest.b;
-        const bool across_a = is_across(gap, m.normal_a), across_b = is_across(gap, m.normal_b);
+        // At right angles, as flush faces are; a short gap is tilted by rounding.
+        const double right_angle = 0x1p-30 + kSlight * rounding_ / std::max(distance, rounding_);
+        const bool across_a = std::abs(dot(gap, m.normal_a)) < right_angle,
+                   across_b = std::abs(dot(gap, m.normal_b)) < right_angle;
         m.is_beside = !m.is_slight && (a_.is_oriented() && b_.is_oriented() ? across_a || across_b
                                                                             : across_a && across_b);
         // A pair whose gap equals the margin still has a direction.
-        m.weight = std::max(margin_ - std::sqrt(nearest.distance_sq), 0x1p-40 * margin_);
+        m.weight = std::max(margin_ - distance, 0x1p-40 * margin_);
         const double most_sq = margin_ * margin_;
         auto& points = meetings_.points;
         for (std::size_t k = 0; k < 3; ++k) {

@@ -41,10 +41,10 @@ struct TriangleMeeting {
     double weight = 0;
     /// Faces that lie on each other, to rounding: the area they share times the normal, from a to b.
     Vec3 common_area;
-    /// Touching, or apart by no more than rounding: the direction across the features that touch. Zero
+    /// Touching, or apart by little more than rounding: the direction across the features that touch. Zero
     /// if these leave it open.
     Vec3 across;
-    bool is_slight = false; ///< near, and apart by no more than rounding
+    bool is_slight = false; ///< near, and the gap is so short that rounding tilts it
     /// Near, and the gap is straight across a normal, of open surfaces across both: that of a face
     /// around the corner.
     bool is_beside = false;
