@@ -138,7 +138,24 @@ DifferenceSimplex known_part(const PolytopePair& pair, const DifferenceSimplex& 
     return known;
 }
 
-CertainDistance decide(const PlacedConvexPair& bodies, const PolytopePair& pair,
+/// Measures the features that the integers have found in the pair's frame, where they lose no digits
+/// far from the world's origin. The search is unchanged unless all vertices prove the distance.
+void measure_in_frame(const PlacedConvexPair& bodies, const PolytopePair& pair, double rounding,
+                      WalkState& at) {
+    WalkState measured = at;
+    walk(pair, rounding, kNoLimit, measured);
+    if (measured.end != WalkEnd::closest)
+        return;
+    const DistanceBounds bounds =
+        distance_bounds(pair, bodies.a.left_out, bodies.b.left_out, rounding, measured);
+    if (bounds.in_frame > 0 &&
+        is_tight_in_frame(bounds, std::sqrt(measured.distance_sq), rounding)) {
+        measured.proven = true;
+        at = measured;
+    }
+}
+
+CertainDistance decide(const PlacedConvexPair& bodies, const PolytopePair& pair, double rounding,
                        ClosestPointSearch& search) {
     const PlacedPoints points = bodies.points();
     require_finite(points);
@@ -152,6 +169,7 @@ CertainDistance decide(const PlacedConvexPair& bodies, const PolytopePair& pair,
     at.distance_sq = found.distance * found.distance;
     at.excess = 0;
     at.proven = true;
+    at.of_features = false;
     at.end = found.meeting ? WalkEnd::meeting : WalkEnd::closest;
     search.simplex.reset();
     if (found.meeting) {
@@ -165,7 +183,9 @@ CertainDistance decide(const PlacedConvexPair& bodies, const PolytopePair& pair,
                       found.point_a);
     at.b = feature_of(bodies.b, bodies.world_from_b, vertices_of(found.simplex, &VertexPair::b),
                       found.point_a + found.gap);
-    return {found.distance, found.at_least};
+    measure_in_frame(bodies, pair, rounding, at);
+    const double distance = at.of_features ? std::sqrt(at.distance_sq) : found.distance;
+    return {distance, std::min(found.at_least, distance)};
 }
 
 } // namespace
@@ -220,7 +240,7 @@ CertainDistance settle_gap(const PlacedConvexPair& bodies, double rounding,
             return {distance, std::min(bounds.certain, distance)};
         }
     }
-    return decide(bodies, pair, search);
+    return decide(bodies, pair, rounding, search);
 }
 
 } // namespace abut

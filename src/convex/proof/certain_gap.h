@@ -55,8 +55,11 @@ bool surely_meet(const PolytopePair& pair, double rounding, const WalkState& at)
 /// has not found to the rounding in the pair's frame is not the distance, wherever the bodies are.
 ///
 /// In          rounding: of a coordinate in the pair's frame.
+inline bool is_tight_in_frame(const DistanceBounds& bounds, double distance, double rounding) {
+    return bounds.in_frame >= distance * (1 - 0x1p-40) - 12 * rounding;
+}
 inline bool is_tight(const DistanceBounds& bounds, double distance, double rounding) {
-    return bounds.certain > 0 && bounds.in_frame >= distance * (1 - 0x1p-40) - 12 * rounding;
+    return bounds.certain > 0 && is_tight_in_frame(bounds, distance, rounding);
 }
 
 /// Proves what a search on the bodies' own polytopes has found but not proven, or replaces it by an

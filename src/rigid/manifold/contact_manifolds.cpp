@@ -9,6 +9,7 @@
 #include "rigid/manifold/region_names.h"
 #include "rigid/manifold/region_points.h"
 #include "rigid/manifold/surface_manifolds.h"
+#include "rigid/manifold/touching_direction.h"
 #include "rigid/manifold/triangle_meeting.h"
 #include "rigid/pair/separating_plane.h"
 #include "rigid/solid/containment.h"
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <utility>
@@ -29,7 +31,7 @@ struct ManifoldMemory {
     TriangleMeetings meetings;
     MeetingRegions regions;
     std::vector<std::uint32_t> part;
-    std::vector<TriangleMeeting> one_part;
+    std::vector<TriangleMeeting> one_part, facing;
 
     /// Frees what one huge pair has needed.
     void trim() {
@@ -37,8 +39,9 @@ struct ManifoldMemory {
         if (meetings.all.capacity() > kMostKept || meetings.points.capacity() > 4 * kMostKept ||
             meetings.faces.capacity() > 2 * kMostKept)
             meetings = {}, regions = {}; // the regions keep a list as long
-        if (part.capacity() > kMostKept || one_part.capacity() > kMostKept)
-            part = {}, one_part = {};
+        if (part.capacity() > kMostKept || one_part.capacity() > kMostKept ||
+            facing.capacity() > kMostKept)
+            part = {}, one_part = {}, facing = {};
     }
 };
 
@@ -116,14 +119,28 @@ public:
             poll_stop();
             while (end < all.size() && all[end].region == all[begin].region)
                 ++end;
-            add_region(all.subspan(begin, end - begin), memory);
+            add_region(without_beside(all.subspan(begin, end - begin), memory.facing), memory);
         }
+        nearest_ = std::sqrt(memory.meetings.nearest_sq);
         memory.trim();
         // The outer border of a ring stands for the inner one too.
         return std::move(manifolds_.empty() ? holes_ : manifolds_);
     }
+    /// The distance of the nearest triangles, of those that are only near.
+    [[nodiscard]] double nearest() const { return nearest_; }
 
 private:
+    /// A region without faces around the corner, unless it has no others.
+    static std::span<const TriangleMeeting> without_beside(std::span<const TriangleMeeting> region,
+                                                           std::vector<TriangleMeeting>& facing) {
+        const auto is_beside = [](const TriangleMeeting& m) { return m.is_beside; };
+        if (std::none_of(region.begin(), region.end(), is_beside))
+            return region;
+        facing.clear();
+        std::remove_copy_if(region.begin(), region.end(), std::back_inserter(facing), is_beside);
+        return facing.empty() ? region : std::span<const TriangleMeeting>(facing);
+    }
+
     void add_region(std::span<const TriangleMeeting> region, ManifoldMemory& memory) {
         const RegionFrame frame = region_frame(a_, b_, region, true);
         if ((frame.only_touches || frame.is_flush) && (a_.is_oriented() || b_.is_oriented()) &&
@@ -154,7 +171,8 @@ private:
             depth_ = depth_of(model_a_, pair_.world_from_a(), model_b_, pair_.world_from_b());
             depth_used_.assign(depth_->regions.size(), false);
         }
-        if (!depth_->interpenetrate)
+        // A depth that may be rounding tells no direction.
+        if (!depth_->interpenetrate || !(depth_->depth > slight_depth()))
             return false;
         const std::optional<std::size_t> k = deepest_of(region);
         if (k) {
@@ -171,14 +189,19 @@ private:
         return frame.only_touches;
     }
 
-    /// The deepest region of depth_ that shares a triangle pair with a region; none if all of those
-    /// have depth 0.
+    [[nodiscard]] double slight_depth() const {
+        constexpr double kSlightDepth = 16; // roundings
+        return kSlightDepth * rounding_of_places(a_, b_);
+    }
+
+    /// The deepest region of depth_ that shares a triangle pair with a region; none if the
+    /// depths of all of those may be rounding.
     [[nodiscard]] std::optional<std::size_t>
     deepest_of(std::span<const TriangleMeeting> region) const {
         std::optional<std::size_t> best;
         for (std::size_t k = 0; k < depth_->regions.size(); ++k) {
             const ContactRegion& found = depth_->regions[k];
-            if (found.depth > (best ? depth_->regions[*best].depth : 0) &&
+            if (found.depth > (best ? depth_->regions[*best].depth : slight_depth()) &&
                 found.direction != Vec3{} &&
                 std::any_of(region.begin(), region.end(), [&](const TriangleMeeting& m) {
                     return std::binary_search(found.pairs.begin(), found.pairs.end(), m.pair);
@@ -220,6 +243,7 @@ private:
     ManifoldSide a_, b_;
     std::vector<std::uint64_t> last_names_;
     std::vector<ModelManifold> manifolds_, holes_;
+    double nearest_ = HUGE_VAL;
     std::optional<Depth> depth_;   ///< computed when a region needs it
     std::vector<bool> depth_used_; ///< the regions of depth_ that have a manifold
 };
@@ -227,6 +251,15 @@ private:
 bool any_meets(const std::vector<Contact>& pairs) {
     return std::any_of(pairs.begin(), pairs.end(),
                        [](const Contact& c) { return c.kind != TriangleContact::none; });
+}
+
+/// The least gap of the points of manifolds.
+double least_gap(const std::vector<ModelManifold>& manifolds) {
+    double least = HUGE_VAL;
+    for (const ModelManifold& m : manifolds)
+        for (std::uint32_t i = 0; i < m.count; ++i)
+            least = std::min(least, -m.points[i].depth);
+    return least;
 }
 
 /// The manifold of the nearest pair of triangles. A solid inside the other looks at the back of its
@@ -269,10 +302,15 @@ std::vector<ModelManifold> manifolds_of(const Model& a, const Transform& world_f
     std::vector<ModelManifold> manifolds;
     if (inside == Inside::in_contact && !any_meets(pairs))
         manifolds = contained_manifold(a, world_from_a, b, world_from_b);
-    if (manifolds.empty() && !pairs.empty())
-        manifolds =
-            ManifoldFinder(pair, a, b, pair.triangle_a(pairs[0].pair.a)[0], options).find(pairs);
-    if (manifolds.empty() && !pairs.empty() && inside == Inside::apart)
+    double nearest = HUGE_VAL;
+    if (manifolds.empty() && !pairs.empty()) {
+        ManifoldFinder finder(pair, a, b, pair.triangle_a(pairs[0].pair.a)[0], options);
+        manifolds = finder.find(pairs);
+        nearest = finder.nearest();
+    }
+    // Faces that look away have no region, also where they are the nearest ones.
+    if (!pairs.empty() && inside == Inside::apart && !any_meets(pairs) &&
+        !(least_gap(manifolds) <= (1 + 0x1p-20) * nearest))
         manifolds.push_back(manifold_of_nearest(pair, pairs));
     name_regions(manifolds, options.last);
     return manifolds;

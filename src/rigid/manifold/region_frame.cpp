@@ -1,5 +1,7 @@
 #include "rigid/manifold/region_frame.h"
 
+#include "rigid/manifold/touching_direction.h"
+
 #include <cmath>
 #include <numbers>
 
@@ -24,6 +26,7 @@ constexpr double kSameNormal = 1 - 0x1p-30;
 struct RegionSums {
     Vec3 normals_a, normals_b;   ///< of crossing triangles, weighted
     Vec3 touching_a, touching_b; ///< of touching and coplanar triangles, each counted once
+    Vec3 across;                 ///< directions across the features of touching triangles
     Vec3 gaps;                   ///< directions, weighted
     Vec3 common_area;            ///< of touching faces
     Vec3 moment;
@@ -49,11 +52,15 @@ RegionSums sum_up(std::span<const TriangleMeeting> region) {
         } else if (kind == TriangleContact::touch) {
             s.touching_a = s.touching_a + m.normal_a, s.touching_b = s.touching_b + m.normal_b;
             s.common_area = s.common_area + m.common_area;
+            s.across = s.across + m.across;
             s.touches = true;
             s.is_flush = s.is_flush || dot(m.normal_a, m.normal_b) > kSameNormal;
         } else {
-            s.gaps = s.gaps + m.weight * normalized_or_zero(m.to - m.from);
-            s.gap_weight += m.weight;
+            // The direction of a gap that is rounding is that of the features.
+            const Vec3 way = m.is_slight ? m.across : normalized_or_zero(m.to - m.from);
+            s.common_area = s.common_area + m.common_area;
+            s.gaps = s.gaps + m.weight * way;
+            s.gap_weight += way != Vec3{} ? m.weight : 0;
         }
     }
     return s;
@@ -152,15 +159,22 @@ RegionFrame region_frame(const ManifoldSide& a, const ManifoldSide& b,
     frame.centre = centre_of(region, s);
     frame.crosses = s.length > 0;
     frame.is_flush = frame.crosses && s.is_flush;
+    frame.is_flat = !frame.crosses && s.common_area != Vec3{};
     frame.only_touches = !frame.crosses && s.touches && s.common_area == Vec3{};
     if (frame.crosses)
         frame.normal = normal_of_curve(region, s, frame.centre, whole);
+    else if (s.common_area != Vec3{})
+        frame.normal = normalized_or_zero(s.common_area);
     else if (s.touches)
-        frame.normal = s.common_area != Vec3{} ? normalized_or_zero(s.common_area)
-                                               : flatter_side(s.touching_a, s.touching_b);
+        frame.normal = s.across != Vec3{} ? normalized_or_zero(s.across)
+                                          : flatter_side(s.touching_a, s.touching_b);
     else
         frame.normal =
             snapped(normalized_or_zero(s.gaps), region, TriangleContact::none, s.gap_weight);
+    // Triangles that touch at vertices or along edges only: those around them may tell more.
+    if (!frame.crosses && s.common_area == Vec3{} && s.across == Vec3{} && s.gaps == Vec3{})
+        if (const Vec3 n = direction_at(a, b, region[0].from, region[0].to); n != Vec3{})
+            frame.normal = n;
     if ((frame.crosses || s.touches) && !(a.is_oriented() && b.is_oriented()))
         frame.normal = turned_to_outside(frame.normal, a, b, frame.centre);
     if (frame.normal == Vec3{})

@@ -18,6 +18,7 @@ struct RegionFrame {
     /// It crosses, and holds faces that lie in one plane and look the same way: parts of its curve
     /// may be missing, so its normal is in doubt.
     bool is_flush = false;
+    bool is_flat = false; ///< the normal is that of faces that lie on each other
     /// The curve goes around a place where the bodies do not meet: the inner border of a ring.
     bool is_hole = false;
 
@@ -31,8 +32,8 @@ struct RegionFrame {
 /// Crossing surfaces: the direction of the vector area that their common curve encloses. If the
 /// curve encloses little for its length, or the region is a part of a longer curve, the mean normal
 /// of the flatter side. If many faces of one side within 30 degrees of that have the same normal,
-/// it is theirs. Touching faces: the normal of the common area. Near triangles: the mean direction
-/// of their gaps.
+/// it is theirs. Touching faces: the normal of the common area; else the mean direction across the
+/// features that touch, or what the models' triangles tell there. Near triangles: the mean direction of their gaps.
 ///
 /// In          region: not empty; `whole`: not a part of a longer curve.
 RegionFrame region_frame(const ManifoldSide& a, const ManifoldSide& b,

@@ -162,7 +162,14 @@ private:
     }
 
     void collect_fixed(const FixedPoint& p) {
-        const double depth = dot(frame_.normal, p.a - p.b);
+        // A gap straight across the normal is that of another face, as of the second wall of a corner.
+        // Along the normal it would look like a touch. So would one against the normal look like a depth.
+        constexpr double kCosOfGap = 0x1p-30, kSlightGap = 0x1p8; // roundings
+        const double depth = dot(frame_.normal, p.a - p.b), gap = length(p.a - p.b);
+        const double most = kCosOfGap * gap + rounding_;
+        if (gap > kSlightGap * rounding_ &&
+            (std::abs(depth) < most || (depth > 0 && frame_.is_flat)))
+            return;
         PointCandidate c = candidate(PointCandidate::Kind::fixed, p.a, p.feature);
         c.on_b = p.b;
         take_everywhere(depth >= -rounding_ ? fixed_ : gaps_, frame_.right(p.a), frame_.up(p.a), c);

@@ -2,10 +2,12 @@
 
 #include "geometry/triangle_triangle_distance.h"
 #include "geometry/triangle_triangle_segment.h"
+#include "rigid/manifold/touching_direction.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace abut {
@@ -37,6 +39,11 @@ private:
     LeafTriangles leaves_;
     double margin_sq_;
 };
+
+/// A length of at most this many roundings of a position may be rounding.
+constexpr double kSlight = 16;
+/// The direction of a gap of at most this many roundings is rounded by 2^-10 or more.
+constexpr double kSlightGap = 0x1p10;
 
 struct CommonSegment {
     Vec3 from, to;
@@ -112,7 +119,7 @@ class MeetingWriter {
 public:
     MeetingWriter(const ManifoldSide& a, const ManifoldSide& b, double margin,
                   TriangleMeetings& meetings)
-        : a_(a), b_(b), margin_(margin), meetings_(meetings) {}
+        : a_(a), b_(b), margin_(margin), rounding_(rounding_of_places(a, b)), meetings_(meetings) {}
 
     void add(const Contact& contact) {
         TriangleMeeting m;
@@ -130,6 +137,10 @@ public:
             constexpr double kCoplanarSq = 0x1p-80;
             if (length_sq(cross(m.normal_a, m.normal_b)) < kCoplanarSq)
                 m.to = m.from, m.weight = 0;
+            // Triangles touch if they pass each other by no more than rounding.
+            if (!(m.weight > kSlight * rounding_) || hardly_passes(fa.corners, fb) ||
+                hardly_passes(fb.corners, fa))
+                add_touching(m, s, fa, fb);
         } else if (contact.kind == TriangleContact::touch) {
             add_touching(m, fa, fb);
         } else if (!add_near(m, fa, fb)) {
@@ -148,23 +159,48 @@ private:
             meetings_.points.push_back({c[k], c[k], name_of(c[k], m.pair, k, fa, fb)});
             m.weight += length(c[k] - c[(k + 1) % common.count]);
         }
-        if (common.count < 3 || !(dot(m.normal_a, m.normal_b) < 0))
-            return;
-        double area = 0;
-        for (std::uint32_t k = 2; k < common.count; ++k)
-            area += 0.5 * length(cross(c[k - 1] - c[0], c[k] - c[0]));
-        m.common_area = area * m.normal_a;
+        add_direction(m, fa, fb);
+    }
+
+    /// Whether a triangle lies on one side of a face's plane, to rounding.
+    [[nodiscard]] bool hardly_passes(const Triangle& t, const MeetingFace& face) const {
+        const auto heights = heights_over(face.unit_normal, face.corners[0], t);
+        const auto [low, high] = std::minmax({heights[0], heights[1], heights[2]});
+        return face.unit_normal != Vec3{} && std::min(high, -low) <= kSlight * rounding_;
+    }
+
+    /// As above, for triangles that cross, but only touch to rounding.
+    void add_touching(TriangleMeeting& m, const CommonSegment& s, const MeetingFace& fa,
+                      const MeetingFace& fb) {
+        m.kind = TriangleContact::touch;
+        meetings_.points.push_back({s.from, s.from, name_of(s.from, m.pair, 0, fa, fb)});
+        if (s.to != s.from)
+            meetings_.points.push_back({s.to, s.to, name_of(s.to, m.pair, 1, fa, fb)});
+        m.to = m.from;
+        add_direction(m, fa, fb);
+    }
+
+    void add_direction(TriangleMeeting& m, const MeetingFace& fa, const MeetingFace& fb,
+                       double gap = 0) const {
+        const TouchingDirection found =
+            touching_direction({fa.corners, fb.corners, fa.unit_normal, fb.unit_normal,
+                                a_.is_oriented(), b_.is_oriented()},
+                               rounding_ + 0.125 * gap);
+        m.common_area = found.area, m.across = found.across;
     }
 
     /// A vertex that lies at the point names it; else the two triangles do.
     [[nodiscard]] std::uint64_t name_of(const Vec3& p, const TrianglePair& pair,
                                         std::uint32_t corner, const MeetingFace& fa,
                                         const MeetingFace& fb) const {
+        const auto is_at = [&](const Vec3& vertex) {
+            return max_abs(vertex - p) <= kSlight * rounding_;
+        };
         for (std::size_t k = 0; k < 3; ++k)
-            if (fb.corners[k] == p)
+            if (is_at(fb.corners[k]))
                 return point_name::vertex_b(fb.vertices[k]);
         for (std::size_t k = 0; k < 3; ++k)
-            if (fa.corners[k] == p)
+            if (is_at(fa.corners[k]))
                 return point_name::vertex_a(fa.vertices[k]);
         return point_name::triangles(pair, corner);
     }
@@ -175,14 +211,25 @@ private:
     bool add_near(TriangleMeeting& m, const MeetingFace& fa, const MeetingFace& fb) {
         const Triangle &ta = fa.corners, &tb = fb.corners;
         const ClosestPoints nearest = triangle_triangle_distance(ta, tb);
-        const Vec3 gap = normalized_or_zero(nearest.b - nearest.a);
+        meetings_.nearest_sq = std::min(meetings_.nearest_sq, nearest.distance_sq);
+        const double distance = std::sqrt(nearest.distance_sq);
+        m.is_slight = distance <= kSlightGap * rounding_;
+        if (m.is_slight)
+            add_direction(m, fa, fb, distance);
+        const Vec3 gap = m.is_slight ? m.across : normalized_or_zero(nearest.b - nearest.a);
         constexpr double kLooksAway = 0.5; // by more than 120 degrees
         if ((a_.is_oriented() && dot(gap, m.normal_a) < -kLooksAway) ||
             (b_.is_oriented() && dot(gap, m.normal_b) > kLooksAway))
             return false;
         m.from = nearest.a, m.to = nearest.b;
+        // At right angles, as flush faces are; a short gap is tilted by rounding.
+        const double right_angle = 0x1p-30 + kSlight * rounding_ / std::max(distance, rounding_);
+        const bool across_a = std::abs(dot(gap, m.normal_a)) < right_angle,
+                   across_b = std::abs(dot(gap, m.normal_b)) < right_angle;
+        m.is_beside = !m.is_slight && (a_.is_oriented() && b_.is_oriented() ? across_a || across_b
+                                                                            : across_a && across_b);
         // A pair whose gap equals the margin still has a direction.
-        m.weight = std::max(margin_ - std::sqrt(nearest.distance_sq), 0x1p-40 * margin_);
+        m.weight = std::max(margin_ - distance, 0x1p-40 * margin_);
         const double most_sq = margin_ * margin_;
         auto& points = meetings_.points;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -199,6 +246,7 @@ private:
     const ManifoldSide& a_;
     const ManifoldSide& b_;
     double margin_;
+    double rounding_;
     TriangleMeetings& meetings_;
     RecentFaces recent_a_, recent_b_;
 };
@@ -227,6 +275,7 @@ void describe_meetings(const ManifoldSide& a, const ManifoldSide& b,
     meetings.all.clear();
     meetings.points.clear();
     meetings.faces.clear();
+    meetings.nearest_sq = std::numeric_limits<double>::infinity();
     meetings.all.reserve(pairs.size());
     MeetingWriter writer(a, b, margin, meetings);
     SearchSteps steps;

@@ -39,7 +39,15 @@ struct TriangleMeeting {
     /// A length: of the segment; of the common area's border; what the gap lacks to the margin. Not
     /// 0 for near triangles.
     double weight = 0;
-    Vec3 common_area; ///< of faces that touch: area times normal, from a to b
+    /// Faces that lie on each other, to rounding: the area they share times the normal, from a to b.
+    Vec3 common_area;
+    /// Touching, or apart by little more than rounding: the direction across the features that touch. Zero
+    /// if these leave it open.
+    Vec3 across;
+    bool is_slight = false; ///< near, and the gap is so short that rounding tilts it
+    /// Near, and the gap is straight across a normal, of open surfaces across both: that of a face
+    /// around the corner.
+    bool is_beside = false;
 };
 
 /// The meetings of two sides and their points, sorted by pair.
@@ -47,6 +55,8 @@ struct TriangleMeetings {
     std::vector<TriangleMeeting> all;
     std::vector<FixedPoint> points;
     std::vector<MeetingFace> faces; ///< of both sides; a triangle may be there several times
+    /// The squared distance of the nearest pair that is only near, also if its faces look away.
+    double nearest_sq = 0;
 };
 
 /// Names of contact points.

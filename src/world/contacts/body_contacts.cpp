@@ -1,6 +1,7 @@
 #include "world/contacts/body_contacts.h"
 
 #include "convex/body/convex_data.h"
+#include "convex/hull/placed_polytope.h"
 #include "math/transform.h"
 #include "math/vector.h"
 #include "rigid/manifold/surface_manifolds.h"
@@ -134,8 +135,20 @@ bool solid_contact(const PlacedBody& a, const PlacedBody& b, double margin,
     if (box_a == nullptr || box_b == nullptr)
         return convex_contact(a, b, margin, warm_start, manifold);
     // Those that rounding puts beyond the margin are looked at too; is_within decides.
-    return rounded_box_contact(placed(*box_a, a.world_from_body), placed(*box_b, b.world_from_body),
-                               margin + 2 * contact_rounding(a, b), manifold);
+    const double at_most = margin + 2 * contact_rounding(a, b);
+    const RoundedBox placed_a = placed(*box_a, a.world_from_body),
+                     placed_b = placed(*box_b, b.world_from_body);
+    // In the order in which gap_between measures: of several normals that are as good, it has one.
+    if (!comes_before(*box_b, b.world_from_body, *box_a, a.world_from_body))
+        return rounded_box_contact(placed_a, placed_b, at_most, manifold);
+    const bool is_near = rounded_box_contact(placed_b, placed_a, at_most, manifold);
+    manifold.normal = -manifold.normal;
+    for (std::uint32_t i = 0; is_near && i < manifold.count; ++i) {
+        ContactPoint& point = manifold.points[i];
+        std::swap(point.point_a, point.point_b);
+        point.feature = turned_round(point.feature);
+    }
+    return is_near;
 }
 
 /// Whether two bodies are at most the margin apart, as the other queries of a world tell it.
@@ -165,7 +178,11 @@ void keep_within_margin(const PlacedBody& a, const PlacedBody& b, double margin,
         return;
     const auto begin = manifolds.begin() + static_cast<std::ptrdiff_t>(first);
     const double deepest = deepest_from(first, manifolds);
-    if (deepest <= -margin + 2 * rounding && !is_within(a, b, margin, warm_start)) {
+    // The triangles of a box are rounded in the world.
+    const double doubt = 2 * rounding + (is_surface(a.shape) || is_surface(b.shape)
+                                             ? world_rounding(a.world_from_body, b.world_from_body)
+                                             : 0);
+    if (deepest <= -margin + doubt && !is_within(a, b, margin, warm_start)) {
         manifolds.erase(begin, manifolds.end());
         return;
     }

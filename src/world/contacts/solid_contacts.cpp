@@ -97,6 +97,9 @@ bool contact_by_axis(const RoundedBox& a, const RoundedBox& b, const ContactLimi
     apart = depth < -limits.margin - limits.rounding;
     if (depth < -limits.margin)
         return false;
+    // Where the cores touch, to rounding, the direction of the distance may be another one.
+    if (std::abs(least.overlap) <= limits.rounding && a.radius + b.radius > 0)
+        return false;
     return set_corners(contact_face(a, least.normal, a.centre),
                        contact_face(b, -least.normal, a.centre),
                        ContactFrame(a.centre, least.normal), depth, limits, manifold);

@@ -9,6 +9,7 @@
 #include "world/narrow_phase/contact_rounding.h"
 #include "world/narrow_phase/convex_gap.h"
 #include "world/narrow_phase/core_gap.h"
+#include "world/narrow_phase/model_gap.h"
 #include "world/narrow_phase/offset_surface.h"
 #include "world/narrow_phase/solid_gap.h"
 
@@ -85,31 +86,6 @@ Core core_of(const RoundedBox& solid) {
             offset_surface_of(solid).body_from_surface};
 }
 
-BodyGap from_rigid(const Gap& gap) {
-    BodyGap result{{},          {}, gap.distance,   gap.point_a,
-                   gap.point_b, {}, gap.triangle_a, gap.triangle_b,
-                   gap.status};
-    // If the bodies overlap, moving b along the normal brings its point to a's point.
-    const Vec3 way = gap.point_b - gap.point_a;
-    result.normal = normalized_or_zero(gap.distance < 0 ? -way : way);
-    return result;
-}
-
-BodyGap measure_models(const Model& a, const Transform& world_from_a, const Model& b,
-                       const Transform& world_from_b, double upper_bound, Depths depths,
-                       PairWarmStart& warm_start) {
-    DistanceOptions options;
-    options.upper_bound = std::max(upper_bound, 0.0);
-    options.signed_distance = depths == Depths::yes;
-    options.warm_start = &warm_start.surfaces;
-    BodyGap gap = from_rigid(distance(a, world_from_a, b, world_from_b, options));
-    // The depth of a point in a solid is a bound of the length of a separating motion, however
-    // exact it is.
-    if (gap.distance < 0)
-        gap.status = Status::bound_only;
-    return gap;
-}
-
 /// Subtracts a radius around b's core, which is a point, a segment or a box.
 BodyGap with_radius(BodyGap core, double radius) {
     core.distance -= radius;
@@ -137,20 +113,34 @@ bool meet(const PlacedConvex& a, const PlacedConvex& b, PairWarmStart& warm_star
     return distance(a.shape.solid, a.world, b.shape.solid, b.world, options).distance == 0;
 }
 
+/// By how much searches for the distance of two convex bodies that start elsewhere may differ, relative
+/// to the distance and to the bodies' sizes: 2^-40 of the distance and some roundings (`is_tight`).
+constexpr double kSearchDoubt = 0x1p-38;
+
+/// Measures a convex body and a rounded one's core by `measure(warm_start)`, which returns the
+/// distance and more. Where rounding decides whether the bodies touch, it measures from scratch, so
+/// that earlier queries do not decide.
+template <typename Measure>
+auto measured_core(const PlacedConvex& a, const PlacedRounded& b, ConvexWarmStart& warm_start,
+                   const Measure& measure) {
+    auto found = measure(&warm_start);
+    const double touching = rounding_of(a, b), reach = a.shape.solid.data().reach;
+    const double apart = found.distance - b.shape.radius - touching;
+    if (found.distance > 0 &&
+        std::abs(apart) <= kSearchDoubt * (std::abs(found.distance) + reach + b.shape.radius))
+        found = measure(nullptr);
+    return found;
+}
+
 bool meet(const PlacedConvex& a, const PlacedRounded& b, PairWarmStart& warm_start) {
     const RoundedBox solid = placed(b.shape, b.world);
     const Core core = core_of(solid);
-    const double touching = rounding_of(a, b);
-    ConvexDistanceOptions options;
-    options.warm_start = &warm_start.solids;
-    const auto gap = [&] {
-        return distance(a.shape.solid, a.world, core.convex, core.world, options).distance -
-               solid.radius;
-    };
-    if (const double first = gap(); std::abs(first - touching) > 0.5 * touching)
-        return first < touching;
-    options.warm_start = nullptr; // where rounding decides, earlier queries must not
-    return gap() <= touching;
+    const ConvexGap gap = measured_core(a, b, warm_start.solids, [&](ConvexWarmStart* warm) {
+        ConvexDistanceOptions options;
+        options.warm_start = warm;
+        return distance(a.shape.solid, a.world, core.convex, core.world, options);
+    });
+    return gap.distance - solid.radius <= rounding_of(a, b);
 }
 
 bool meet(const PlacedSurface& a, const PlacedRounded& b, PairWarmStart& /*warm_start*/) {
@@ -188,15 +178,15 @@ BodyGap measure(const PlacedSurface& a, const PlacedSurface& b, double upper_bou
                 PairWarmStart& warm_start) {
     // A search for a depth ends within its accuracy of it, at a number that the order decides.
     if (depths == Depths::yes && is_before(b, a))
-        return turned_round(
-            measure_models(b.shape, b.world, a.shape, a.world, upper_bound, depths, warm_start));
-    return measure_models(a.shape, a.world, b.shape, b.world, upper_bound, depths, warm_start);
+        return turned_round(model_gap(b.shape, b.world, a.shape, a.world, upper_bound, depths,
+                                      warm_start.surfaces));
+    return model_gap(a.shape, a.world, b.shape, b.world, upper_bound, depths, warm_start.surfaces);
 }
 
 BodyGap measure(const PlacedSurface& a, const PlacedConvex& b, double upper_bound, Depths depths,
                 PairWarmStart& warm_start) {
-    BodyGap gap =
-        measure_models(a.shape, a.world, b.shape.surface, b.world, upper_bound, depths, warm_start);
+    BodyGap gap = model_gap(a.shape, a.world, b.shape.surface, b.world, upper_bound, depths,
+                            warm_start.surfaces);
     // A surface wholly inside the solid may be far from its faces, but is in contact.
     if (gap.distance > 0 && meet(a, b, warm_start))
         gap.distance = 0, gap.normal = {};
@@ -208,13 +198,33 @@ BodyGap measure(const PlacedConvex& a, const PlacedConvex& b, double /*upper_bou
     return convex_gap(a.shape.solid, a.world, b.shape.solid, b.world, warm_start.solids);
 }
 
+/// Whether a capsule's axis or a box's face is across a direction, to rounding: then there are many
+/// closest points, and the start of a search decides which of them it finds.
+bool lies_across(const RoundedBox& core, const Vec3& direction) {
+    constexpr double kAcross = 0x1p-20; // the closest points of others are unique to 2^-20
+    for (std::size_t k = 0; k < 3; ++k)
+        if (core.half[k] > 0 && std::abs(dot(core.axis[k], direction)) <= kAcross)
+            return true;
+    return false;
+}
+
 BodyGap measure(const PlacedConvex& a, const PlacedRounded& b, double /*upper_bound*/,
                 Depths /*depths*/, PairWarmStart& warm_start) {
     const RoundedBox solid = placed(b.shape, b.world);
     const Core core = core_of(solid);
-    return with_radius(
-        convex_gap(a.shape.solid, a.world, core.convex, core.world, warm_start.solids),
-        solid.radius);
+    const auto gap_from = [&](ConvexWarmStart& start) {
+        return convex_gap(a.shape.solid, a.world, core.convex, core.world, start);
+    };
+    BodyGap gap = measured_core(a, b, warm_start.solids, [&](ConvexWarmStart* warm) {
+        ConvexWarmStart none;
+        return gap_from(warm != nullptr ? *warm : none);
+    });
+    // Bodies that touch are asked for by several queries.
+    if (gap.distance <= solid.radius + 2 * rounding_of(a, b) && lies_across(solid, gap.normal)) {
+        ConvexWarmStart none;
+        gap = gap_from(none);
+    }
+    return with_radius(gap, solid.radius);
 }
 
 /// Returns whether a part of a surface lies in a box, if the surface does not meet its faces.
@@ -240,9 +250,9 @@ BodyGap measure(const PlacedSurface& a, const PlacedRounded& b, double upper_bou
         return capsule_gap(a.shape, a.world, {axis_of(solid), solid.radius}, upper_bound, depths);
     default:
         const OffsetSurface faces = offset_surface_of(b.shape);
-        BodyGap gap = measure_models(a.shape, a.world, faces.surface,
-                                     compose(b.world, faces.body_from_surface), upper_bound, depths,
-                                     warm_start);
+        BodyGap gap =
+            model_gap(a.shape, a.world, faces.surface, compose(b.world, faces.body_from_surface),
+                      upper_bound, depths, warm_start.surfaces);
         // A surface wholly inside the box may be far from its faces, but is in contact. The faces of
         // the box are rounded.
         const bool is_clear = gap.distance > 0x1p-40 * (sum_of_sizes(solid.centre) + solid.half[0] +
