@@ -154,6 +154,21 @@ std::string largest(const ClashReport& report, const std::vector<Scene>& models,
     return text.empty() ? text : "\nlargest common volumes\n" + text;
 }
 
+/// A line for each model, with its notes.
+std::string models_text(const ClashReport& report) {
+    std::size_t widest = 0;
+    for (const auto& model : report.models)
+        widest = std::max(widest, shown(model.file).size());
+    std::string text;
+    for (const auto& model : report.models)
+        text +=
+            fmt::format("{:<{}}  {:>9} parts  {:>12} triangles  {} m a unit, {} up\n",
+                        shown(model.file), widest, grouped(model.parts), grouped(model.triangles),
+                        number(model.unit), abut::to_string(model.up)) +
+            in_words(model.notes, "  ");
+    return text;
+}
+
 /// "0.01 mm", "up to 0.01 mm": the touch tolerance of a report.
 std::string touch_text(const ClashReport& report) {
     if (report.touch_source == TouchSource::option)
@@ -194,16 +209,7 @@ std::string touch_in_words(const std::optional<double>& touch_tolerance) {
 
 std::string summary(const ClashReport& report, const std::vector<Scene>& models,
                     bool rules_have_clearances) {
-    std::size_t widest = 0;
-    for (const auto& model : report.models)
-        widest = std::max(widest, shown(model.file).size());
-    std::string text;
-    for (const auto& model : report.models)
-        text +=
-            fmt::format("{:<{}}  {:>9} parts  {:>12} triangles  {} m a unit, {} up\n",
-                        shown(model.file), widest, grouped(model.parts), grouped(model.triangles),
-                        number(model.unit), abut::to_string(model.up)) +
-            in_words(model.notes, "  ");
+    std::string text = models_text(report);
     for (const std::string& warning : report.warnings)
         text += fmt::format("warning: {}\n", shown(warning));
     text += fmt::format("\nframe       metres, {} up, as {}\nclearance {}, touch {}; "
