@@ -1,6 +1,7 @@
 #include "arguments/verb.h"
 
 #include <algorithm>
+#include <cctype>
 #include <fmt/format.h>
 
 namespace abut::command {
@@ -21,6 +22,18 @@ std::vector<std::string> choices_of(const std::string& type) {
         at = comma + 1;
     }
     return words;
+}
+
+/// Whether a text has a word, and not only as a part of another one.
+bool has_word(const std::string& text, const std::string& word) {
+    const auto is_of_word = [&](std::size_t at) {
+        return at < text.size() &&
+               (std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '_');
+    };
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+        if ((at == 0 || !is_of_word(at - 1)) && !is_of_word(at + word.size()))
+            return true;
+    return false;
 }
 
 /// Returns the placeholder of a value: the name of a check if there is one ("LENGTH" of
@@ -59,7 +72,9 @@ OptionFacts facts_of(const CLI::Option& option) {
             facts.choices.size() == 1 ? facts.choices.front() : value_of(option.get_type_name());
     }
     const auto add = [&](const std::string& sentence) { facts.says += ". " + sentence; };
-    if (facts.choices.size() > 1)
+    const bool are_told = std::ranges::all_of(
+        facts.choices, [&](const std::string& word) { return has_word(facts.brief, word); });
+    if (facts.choices.size() > 1 && !are_told)
         add(fmt::format("One of {}", fmt::join(facts.choices, ", ")));
     if (!option.get_default_str().empty())
         add("Default: " + option.get_default_str());

@@ -22,6 +22,18 @@ std::string short_length(double value);
 std::string metres_below(double value);
 std::string metres_above(double value);
 
+/// Returns the largest power of ten that is at most a length: a step that rounds it away, and no more.
+/// 0 if the length is 0.
+double step_below(double length);
+/// Formats a coordinate to a multiple of a step that is a power of ten, without trailing zeros: "-0.25".
+/// Six significant digits if the step is 0.
+std::string to_step(double value, double step);
+/// Formats the ends of a box: "(-0.5, 0, 2) to (3, 4, 5) m". What is below a millionth of its diagonal
+/// is not shown, nor what rounding cannot tell.
+///
+/// In          rounding: metres by which coordinates in the box may be off.
+std::string box_text(const Vec3& lower, const Vec3& upper, double rounding);
+
 /// Formats a point, such as "(1, 0.5, 0) m".
 std::string point(const Vec3& place);
 

@@ -14,6 +14,7 @@
 #include "text/clash_summary.h"
 #include "verbs/bcf_output.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
@@ -99,10 +100,19 @@ std::string problems_text(const ClashReport& report, const std::vector<std::uint
     return text + "\n";
 }
 
-std::string text_of(const StoreClashReport& found, bool from_store,
+/// Whether a rule, or a cell of a matrix, has a clearance of its own.
+bool rules_have_clearances(const ClashOptions& options) {
+    const auto has_one = [](const ClashRule& rule) { return rule.clearance.has_value(); };
+    return std::ranges::any_of(options.rules, has_one) ||
+           std::ranges::any_of(options.matrix.cells, [&](const ClashMatrix::Cell& cell) {
+               return cell.examined && has_one(cell.terms);
+           });
+}
+
+std::string text_of(const StoreClashReport& found, const ClashOptions& options, bool from_store,
                     const std::optional<std::vector<std::uint32_t>>& problems,
                     const std::optional<OutputFiles>& outputs) {
-    std::string text = summary(found.report, found.models);
+    std::string text = summary(found.report, found.models, rules_have_clearances(options));
     if (from_store)
         text += out_of_core_summary(found.counters);
     if (problems)
@@ -112,13 +122,13 @@ std::string text_of(const StoreClashReport& found, bool from_store,
     return text;
 }
 
-void print_result(const StoreClashReport& found, bool from_store,
+void print_result(const StoreClashReport& found, const ClashOptions& options, bool from_store,
                   const std::optional<std::vector<std::uint32_t>>& problems,
                   const std::optional<OutputFiles>& outputs, const CommonOptions& common) {
     if (common.json)
         print_json(from_store ? abut::to_json(found) : abut::to_json(found.report, found.models));
     else if (!common.quiet)
-        print_text(text_of(found, from_store, problems, outputs));
+        print_text(text_of(found, options, from_store, problems, outputs));
 }
 
 /// Runs a helper, that is a process other than the first one that mpirun started. It works and
@@ -255,7 +265,7 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
     std::optional<std::vector<std::uint32_t>> problems;
     if (!fail_on.empty())
         problems = fail_on.problems(report, models);
-    print_result(found, from_store, problems, outputs, common);
+    print_result(found, options, from_store, problems, outputs, common);
     return problems && !problems->empty() ? kExitProblem : kExitDone;
 }
 

@@ -9,6 +9,7 @@
 #include "verbs/info_store.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <memory>
 
@@ -54,6 +55,27 @@ Box3 world_bounds(const Mesh& mesh, const Transform& world_from_mesh) {
             grow(box, p, p);
         }
     return box;
+}
+
+/// Returns how far coordinates of a model may be off, in metres: by the precision that its file states, or
+/// by single precision.
+double rounding_of(const Scene& scene) {
+    double rounding = scene.precision.stated;
+    if (!scene.precision.single_meshes)
+        return rounding;
+    std::vector<double> reach; // of each mesh
+    for (const Mesh& mesh : scene.meshes) {
+        double& most = reach.emplace_back(0);
+        for (const Vec3& p : mesh.positions)
+            most = std::max({most, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    }
+    for (const Part& part : scene.parts) {
+        double stretch = 0;
+        for (std::size_t i = 0; i < 9; ++i)
+            stretch = std::max(stretch, std::abs(part.world_from_mesh.m.at(i)));
+        rounding = std::max(rounding, 0x1p-24 * stretch * reach[part.mesh]);
+    }
+    return rounding;
 }
 
 std::vector<MeshReport> inspect_all(const std::vector<Mesh>& meshes) {
@@ -148,14 +170,14 @@ std::string table(const Scene& scene, const std::vector<MeshReport>& reports, co
                     "  degenerate  {:>12}  triangles of zero area\n"
                     "  duplicate   {:>12}  triangles\n"
                     "  edges       {:>12}  boundary, {} non-manifold, {} flipped\n"
-                    "  bounds      {} to {}\n",
+                    "  bounds      {}\n",
                     shown(scene.file), abut::to_string(scene.up), number(scene.unit),
                     grouped(scene.parts.size()), grouped(info.closed_parts),
                     grouped(scene.meshes.size()), grouped(info.sum.triangles),
                     grouped(info.stored_triangles), grouped(info.sum.degenerate_triangles),
                     grouped(info.sum.duplicate_triangles), grouped(info.sum.boundary_edges),
                     grouped(info.sum.nonmanifold_edges), grouped(info.sum.flipped_edges),
-                    direction(info.sum.bounds.lower), point(info.sum.bounds.upper));
+                    box_text(info.sum.bounds.lower, info.sum.bounds.upper, rounding_of(scene)));
     text += in_words(scene.notes, "  ");
     if (!with_parts)
         return text;

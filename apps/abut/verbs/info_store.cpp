@@ -96,7 +96,7 @@ std::string table(const StoreSummary& summary, bool verified) {
         grouped(summary.file_bytes), grouped(summary.unused_bytes));
     const Vec3 &lower = summary.bounds.lower, &upper = summary.bounds.upper;
     if (lower.x <= upper.x)
-        text += fmt::format("  bounds      {} to {}\n", direction(lower), point(upper));
+        text += fmt::format("  bounds      {}\n", box_text(lower, upper, 0));
     return text + (verified ? "  verified    all pages, rows and blocks\n" : "");
 }
 

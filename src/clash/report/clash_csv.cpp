@@ -4,6 +4,8 @@
 #include "clash/report/csv_cells.h"
 #include "core/atomic_file.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <string_view>
 
@@ -19,10 +21,26 @@ constexpr std::string_view kHeader =
 constexpr std::string_view kStatusHeader = ",status,note"; // only in reports of a store
 constexpr std::string_view kGroupHeader = ",group,group_name";
 
-void append_cells(TextBuffer& out, const Vec3& point) {
-    append_cell(out, point.x);
-    append_cell(out, point.y);
-    append_cell(out, point.z);
+void append_cells(TextBuffer& out, const Vec3& v, double rounding) {
+    append_rounded_cell(out, v.x, rounding);
+    append_rounded_cell(out, v.y, rounding);
+    append_rounded_cell(out, v.z, rounding);
+}
+
+/// Appends the lengths of a clash, without digits that the rounding of its parts has made, or double
+/// precision.
+void append_lengths(TextBuffer& out, const Clash& clash) {
+    constexpr double kRounding = 0x1p-49; // of a number: some roundings of doubles
+    double reach = 0;
+    for (const Vec3& p : {clash.point_a, clash.point_b})
+        for (const double x : {p.x, p.y, p.z})
+            reach = std::max(reach, std::abs(x));
+    const double rounding = std::max(clash.rounding, kRounding * reach);
+    append_rounded_cell(out, told_distance(clash),
+                        std::max(clash.rounding, kRounding * std::abs(clash.distance)));
+    append_cells(out, clash.point_a, rounding);
+    append_cells(out, clash.point_b, rounding);
+    append_cells(out, clash.direction, kRounding);
 }
 
 void append_row(TextBuffer& out, const Clash& clash, const std::vector<Scene>& models,
@@ -38,14 +56,11 @@ void append_row(TextBuffer& out, const Clash& clash, const std::vector<Scene>& m
     append_cell(out, b.type);
     append_cell(out, models[clash.model[0]].file);
     append_cell(out, models[clash.model[1]].file);
-    append_cell(out, told_distance(clash));
-    append_cells(out, clash.point_a);
-    append_cells(out, clash.point_b);
-    append_cells(out, clash.direction);
+    append_lengths(out, clash);
     fmt::format_to(fmt::appender(out), ",{}", clash.triangle_pairs);
     append_cell(out, clash.rule);
     append_cell(out, clash.severity);
-    append_cell(out, clash.volume);
+    append_rounded_cell(out, clash.volume, clash.volume_error);
     append_cell(out, clash.volume_error);
     append_cell(out, clash.neighbours ? to_string(*clash.neighbours) : "");
     if (with_status) {

@@ -224,9 +224,28 @@ private:
             uses.clear();
             std::ranges::copy_if(edge, std::back_inserter(uses),
                                  [&](const HalfEdge& e) { return is_left(e); });
+            connect_sheets(uses, sheet_of);
             for (const auto& [begins, ends] : pair_uses(mesh_, uses, sheet_of))
                 unite(begins.triangle, ends.triangle, false);
         }
+    }
+
+    /// Connects what the two uses of an edge by one sheet have on both sides: the sheet is closed there by
+    /// itself. Leaves the other uses.
+    void connect_sheets(std::vector<HalfEdge>& uses, std::span<const std::uint32_t> sheet_of) {
+        const auto sheet = [&](const HalfEdge& e) { return sheet_of[e.triangle]; };
+        std::ranges::stable_sort(uses, {}, sheet);
+        std::vector<HalfEdge> left;
+        for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
+            while (end < uses.size() && sheet(uses[end]) == sheet(uses[begin]))
+                ++end;
+            if (end - begin == 2 && uses[begin].from != uses[begin + 1].from)
+                unite(uses[begin].triangle, uses[begin + 1].triangle, false);
+            else
+                left.insert(left.end(), uses.begin() + static_cast<std::ptrdiff_t>(begin),
+                            uses.begin() + static_cast<std::ptrdiff_t>(end));
+        }
+        uses = std::move(left);
     }
 
     /// Numbers the shells in the order of their first triangles.

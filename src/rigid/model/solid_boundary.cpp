@@ -50,6 +50,9 @@ public:
         }
         const int bounds = (under[0] >= 1 ? 1 : 0) - (over[0] >= 1 ? 1 : 0);
         const int weight = fragment.sides.is_first ? bounds : 0;
+        for (std::size_t i = 2; i < fragment.corners.size() && weight != 0; ++i)
+            areas_ = areas_ + (0.5 * weight) * cross(fragment.corners[i - 1] - fragment.corners[0],
+                                                     fragment.corners[i] - fragment.corners[0]);
         const std::uint32_t triangle = numbers_[fragment.triangle];
         if (fragment.is_whole) {
             add(mesh_.triangles[triangle], triangle, weight);
@@ -62,10 +65,11 @@ public:
             add({first, first + i - 1, first + i}, triangle, weight);
     }
 
-    /// Whether the solid winds backwards beside faces that are no slits at T-junctions.
-    [[nodiscard]] bool contradicts() const {
-        if (solid_.closed || backwards_ == 0)
-            return false; // of a closed solid, cavities that overlap do
+    /// Whether the solid winds backwards beside faces that are no slits at T-junctions, or has a border
+    /// that is wider than these. Cavities that overlap make a closed one wind backwards.
+    [[nodiscard]] bool contradicts(const FacesUncertainty& uncertainty) const {
+        if (solid_.closed)
+            return false;
         Box3 box;
         double edges = 0;
         for (const auto& t : mesh_.triangles)
@@ -74,7 +78,8 @@ public:
                 extend(box, p);
                 edges += length(q - p);
             }
-        return backwards_ > kWindingRounding * length(box.upper - box.lower) * edges;
+        const double slits = kWindingRounding * length(box.upper - box.lower) * edges;
+        return backwards_ > slits || length(areas_) > slits + uncertainty.area;
     }
 
     /// Null if nothing lies inside and each triangle counts as its solid says.
@@ -101,6 +106,7 @@ private:
     std::vector<std::int8_t> weight_;
     bool any_hidden_ = false, differs_ = false;
     double backwards_ = 0; ///< area of faces beside which the solid winds backwards
+    Vec3 areas_;           ///< the sum of areas along normals outwards: 0 without a border
 };
 
 } // namespace
@@ -115,7 +121,7 @@ BoundarySearch find_boundary(const Mesh& mesh, const Solid& solid) {
         FaceFragments fragments(std::move(distinct.mesh), std::move(distinct.faces));
         result.is_known =
             fragments.for_each([&](const FaceFragments::Fragment& f) { boundary.add(f); });
-        result.is_known = result.is_known && !boundary.contradicts();
+        result.is_known = result.is_known && !boundary.contradicts(fragments.uncertainty());
         if (result.is_known)
             result.boundary = boundary.take(fragments.uncertainty());
     });

@@ -121,42 +121,83 @@ std::vector<std::uint32_t> patches_of(const Mesh& mesh, const Topology& topology
     return std::move(sets).roots();
 }
 
-std::optional<SetWinding> winding_of(const Mesh& mesh, const Topology& topology,
-                                     std::span<const std::uint32_t> set) {
-    std::vector<std::uint32_t> patch_of; // by index; found when the first probe has told a solid
-    std::optional<PatchVote> vote;
-    const auto probe = [&](std::uint32_t triangle) {
-        const FaceProbe beside = face_probe(triangle_of(mesh, triangle));
-        const double over = winding_number(mesh, set, beside.over);
-        if (std::abs(over - std::round(over)) > kWindingRounding)
-            return false;
-        if (!vote)
-            patch_of = patches_of(mesh, topology, set, false), vote.emplace(set.size());
-        const auto index = std::ranges::lower_bound(set, triangle) - set.begin();
-        return vote->add(patch_of[static_cast<std::size_t>(index)], over,
-                         winding_number(mesh, set, beside.under));
-    };
-    const std::vector<std::uint32_t> first = largest_triangles(mesh, set, kProbes);
-    if (first.empty() || !std::ranges::all_of(first, probe))
+namespace {
+
+/// The winding numbers over and under a triangle.
+struct ProbedTriangle {
+    std::uint32_t triangle = 0;
+    double over = 0, under = 0;
+};
+
+/// Returns the weights if all probes of a patch agree.
+std::optional<SetWinding> weights_by(const std::vector<std::uint32_t>& patch_of,
+                                     std::span<const std::uint32_t> set,
+                                     std::span<const ProbedTriangle> probes, bool are_all_probed) {
+    PatchVote vote(set.size());
+    for (const ProbedTriangle& p : probes) {
+        const auto index = std::ranges::lower_bound(set, p.triangle) - set.begin();
+        if (!vote.add(patch_of[static_cast<std::size_t>(index)], p.over, p.under))
+            return std::nullopt;
+    }
+    if (!vote.has_inside() || (vote.is_mixed() && !are_all_probed))
         return std::nullopt;
-    std::vector<std::pair<double, std::uint32_t>> of_patch(set.size()); // its largest triangle
+    SetWinding result{{}, vote.is_mixed(), vote.may_overlap() || vote.is_mixed()};
+    for (std::uint32_t i = 0; i < set.size(); ++i)
+        result.weights.push_back(static_cast<std::int8_t>(vote.weight(patch_of[i])));
+    return result;
+}
+
+/// The largest triangle of each patch, the largest first.
+std::vector<std::uint32_t> largest_of_patches(const Mesh& mesh,
+                                              const std::vector<std::uint32_t>& patch_of,
+                                              std::span<const std::uint32_t> set) {
+    std::vector<std::pair<double, std::uint32_t>> of_patch(set.size());
     for (std::uint32_t i = 0; i < set.size(); ++i) {
         auto& largest = of_patch[patch_of[i]];
         largest = std::min(largest, {-doubled_area_sq(triangle_of(mesh, set[i])), set[i]});
     }
-    std::erase_if(of_patch, [&](const auto& p) {
-        return p.first == 0 || std::ranges::find(first, p.second) != first.end();
-    });
+    std::erase_if(of_patch, [](const auto& p) { return p.first == 0; });
     std::sort(of_patch.begin(), of_patch.end());
-    const bool are_all_probed = of_patch.size() <= kMostPatches;
-    of_patch.resize(std::min(of_patch.size(), kMostPatches));
-    if (!std::ranges::all_of(of_patch, [&](const auto& p) { return probe(p.second); }) ||
-        !vote->has_inside() || (vote->is_mixed() && !are_all_probed))
-        return std::nullopt;
-    SetWinding result{{}, vote->is_mixed(), vote->may_overlap()};
-    for (std::uint32_t i = 0; i < set.size(); ++i)
-        result.weights.push_back(static_cast<std::int8_t>(vote->weight(patch_of[i])));
+    std::vector<std::uint32_t> result;
+    for (const auto& [area, triangle] : of_patch)
+        result.push_back(triangle);
     return result;
+}
+
+} // namespace
+
+std::optional<SetWinding> winding_of(const Mesh& mesh, const Topology& topology,
+                                     std::span<const std::uint32_t> set) {
+    std::vector<ProbedTriangle> probes;
+    const auto probe = [&](std::uint32_t triangle) {
+        if (std::ranges::find(probes, triangle, &ProbedTriangle::triangle) != probes.end())
+            return true;
+        const FaceProbe beside = face_probe(triangle_of(mesh, triangle));
+        const auto is_integral = [](double w) {
+            return std::abs(w - std::round(w)) <= kWindingRounding;
+        };
+        const double over = winding_number(mesh, set, beside.over);
+        if (!is_integral(over))
+            return false;
+        const double under = winding_number(mesh, set, beside.under);
+        probes.push_back({triangle, over, under});
+        return is_integral(under);
+    };
+    const std::vector<std::uint32_t> first = largest_triangles(mesh, set, kProbes);
+    if (first.empty() || !std::ranges::all_of(first, probe))
+        return std::nullopt;
+    const std::vector<std::uint32_t> flat = patches_of(mesh, topology, set, true);
+    std::vector<std::uint32_t> more = largest_of_patches(mesh, flat, set);
+    const bool are_all_probed = more.size() <= kMostPatches;
+    more.resize(std::min(more.size(), kMostPatches));
+    if (!std::ranges::all_of(more, probe))
+        return std::nullopt;
+    // Faces of two solids may have an edge in common that no other face uses as a whole: then a patch
+    // has faces of both, and only flat ones face one way.
+    if (auto found =
+            weights_by(patches_of(mesh, topology, set, false), set, probes, are_all_probed))
+        return found;
+    return weights_by(flat, set, probes, are_all_probed);
 }
 
 } // namespace abut

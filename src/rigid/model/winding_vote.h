@@ -15,21 +15,23 @@ struct SetWinding {
     /// By triangle of the set: +1 if its normal points out of the solid, -1 if into it, 0 if it lies
     /// inside the solid, with another one that faces the same way on it.
     std::vector<std::int8_t> weights;
-    bool is_mixed = false;    ///< they wind forwards around some points and backwards around others
-    bool may_overlap = false; ///< a triangle has matter on both sides
+    bool is_mixed = false; ///< they wind forwards around some points and backwards around others
+    /// A triangle has matter on both sides, or may face another way than its patch: the boundary must be
+    /// cut, which tells contradictions.
+    bool may_overlap = false;
 };
 
 /// Tells whether some triangles bound a solid but for T-junctions, and how they are oriented: they do if
 /// they wind an integral number of times around points beside their largest ones, and beside the
-/// largest of each patch. A patch is a set of triangles that are connected by edges that no third one of
+/// largest of each flat patch. A patch is a set of triangles that are connected by edges that no third one of
 /// them uses, in opposite directions; so it faces one way.
 ///
 /// In          set: numbers of triangles, ascending.
 /// Out         none if they bound no solid.
-/// Accuracy    of more than 64 patches, the smallest are not probed: they face as the others, which
+/// Accuracy    of more than 64 flat patches, the smallest are not probed: they face as the others, which
 ///             must all face one way.
-/// Cost        two winding numbers of the set for each probe: of kProbes, and of each patch. One for
-///             most sheets.
+/// Cost        two winding numbers of the set for each probe: of kProbes, and of each flat patch, at
+///             most 64. One for most sheets.
 std::optional<SetWinding> winding_of(const Mesh& mesh, const Topology& topology,
                                      std::span<const std::uint32_t> set);
 

@@ -2,9 +2,15 @@
 #include "tests/command/run_command.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <set>
+#include <sstream>
+#include <string>
 #include <tuple>
+#include <vector>
 
 namespace abut::test {
 namespace {
@@ -78,9 +84,134 @@ TEST_F(ClashTest, TouchesToWhatTheFileTellsApartUnlessATouchToleranceIsGiven) {
     EXPECT_LE(report["touch_least"], report["touch"]);
     EXPECT_EQ(report["models"][0]["precision"], 0.0);
     EXPECT_GT(report["models"][0]["rounding"], 0.0);
-    EXPECT_NE(clash({}).out.find(", rounding of " + file_ + "; "), std::string::npos);
+    EXPECT_NE(clash({}).out.find("\ntouch is    the rounding of the coordinates of site.glb\n"),
+              std::string::npos);
     EXPECT_NE(clash({"--touch", "1mm"}).out.find("touch 1 mm; "), std::string::npos);
     EXPECT_NE(clash({"--touch", "0"}).out.find("touch 0 m; "), std::string::npos);
+}
+
+TEST_F(ClashTest, SaysThatClearancesComeFromRules) {
+    const std::string rules = folder_.write(
+        "rules.json", R"({"rules": [{"name": "all", "clearance": 0.05, "a": {}, "b": {}}]})");
+    const std::string text = clash({"--rules", rules}).out;
+    EXPECT_NE(text.find("\nclearance of the rules (else 0 m), touch "), std::string::npos) << text;
+    EXPECT_NE(text.find("  clearance          1\n"), std::string::npos) << text;
+    EXPECT_NE(clash({"--preset", "clearances"}).out.find("\nclearance of the rules (else 0 m), "),
+              std::string::npos);
+    const std::string none = folder_.write(
+        "none.json", R"({"rules": [{"name": "all", "severity": "high", "a": {}, "b": {}}]})");
+    EXPECT_NE(clash({"--rules", none}).out.find("\nclearance 0 m, touch "), std::string::npos);
+}
+
+/// The lines under a title, up to an empty one.
+std::vector<std::string> lines_under(const std::string& text, const std::string& title) {
+    std::vector<std::string> lines;
+    std::size_t at = text.find("\n" + title + "\n");
+    if (at == std::string::npos)
+        return lines;
+    for (at += title.size() + 2; at < text.size() && text[at] != '\n';) {
+        const std::size_t end = text.find('\n', at);
+        lines.push_back(text.substr(at, end - at));
+        at = end + 1;
+    }
+    return lines;
+}
+
+/// Boxes as one OBJ file; `from` to `to`, of a part each. A flat box is a rectangle without an inside.
+struct ObjBox {
+    std::string name;
+    std::array<double, 3> from, to;
+    bool is_open = false; ///< without its last two triangles
+};
+std::string obj_of(const std::vector<ObjBox>& boxes) {
+    const Mesh unit = unit_box();
+    std::string text;
+    std::size_t first = 1;
+    for (const ObjBox& box : boxes) {
+        text += "o " + box.name + "\n";
+        for (const Vec3& p : unit.positions)
+            text +=
+                fmt::format("v {} {} {}\n", p.x == 0 ? box.from[0] : box.to[0],
+                            p.y == 0 ? box.from[1] : box.to[1], p.z == 0 ? box.from[2] : box.to[2]);
+        for (std::size_t t = 0; t < unit.triangles.size() - (box.is_open ? 2 : 0); ++t) {
+            const auto& [a, b, c] = unit.triangles[t];
+            text += fmt::format("f {} {} {}\n", first + a, first + b, first + c);
+        }
+        first += unit.positions.size();
+    }
+    return text;
+}
+
+TEST_F(ClashTest, SurfacesWithoutAnInsideHaveNoDepthAndComeLast) {
+    const std::string file =
+        folder_.write("surfaces.obj", obj_of({{"wall", {0, 0, 0}, {4, 1, 4}, true},
+                                              {"duct", {1, -1, 1}, {2, 2, 2}, true},
+                                              {"beam", {10, 0, 0}, {14, 1, 1}},
+                                              {"pipe", {13.9, 0.25, 0.25}, {16, 0.75, 0.75}},
+                                              {"shelf", {20, 0, 0}, {22, 1, 1}, true},
+                                              {"post", {21.9, 0.4, 0.4}, {23, 0.6, 0.6}}}));
+    for (const char* touch : {"0", "1mm"}) {
+        const std::string text = run_abut({"clash", file, "--touch", touch}).out;
+        const std::vector<std::string> rows = lines_under(text, "deepest");
+        ASSERT_EQ(rows.size(), 3U) << text;
+        // Of one solid and one surface, the depth is that in the solid.
+        EXPECT_NE(rows[0].find(" m  beam  |  pipe"), std::string::npos) << text;
+        EXPECT_NE(rows[1].find(" m  shelf [no solid]  |  post"), std::string::npos) << text;
+        EXPECT_EQ(rows[2], "  hard            no inside  wall [no solid]  |  duct [no solid]");
+    }
+}
+
+TEST_F(ClashTest, ADepthThatRoundingMayHaveMadeIsToldInWords) {
+    // The common part is a nanometre thick. The meshes are in single precision, so that they may be off by
+    // more.
+    Scene scene;
+    scene.meshes = {unit_box()};
+    scene.parts = {part("a", "", 0, placed(0, 0, 0)),
+                   part("b", "", 0, placed(1 - 1e-9, 0.25, 0.25, 0.5))};
+    const std::string file = folder_ / "flush.glb";
+    write_glb(scene, file);
+    const std::string text = run_abut({"clash", file, "--touch", "0"}).out;
+    const std::vector<std::string> rows = lines_under(text, "deepest");
+    ASSERT_EQ(rows.size(), 1U) << text;
+    EXPECT_EQ(rows[0], "  hard       below rounding  a  |  b");
+}
+
+TEST_F(ClashTest, TheTableHasNoDigitsThatRoundingMade) {
+    Scene scene = one_of_each_kind();
+    const double c = std::cos(0.5), s = std::sin(0.5);
+    for (Part& each : scene.parts) { // turned about z
+        const auto m = each.world_from_mesh.m;
+        for (std::size_t k = 0; k < 12; k += 3) {
+            each.world_from_mesh.m.at(k) = c * m.at(k) - s * m.at(k + 1);
+            each.world_from_mesh.m.at(k + 1) = s * m.at(k) + c * m.at(k + 1);
+        }
+    }
+    const std::string file = folder_ / "turned.glb", out = folder_ / "report";
+    write_glb(scene, file);
+    ASSERT_EQ(run_abut({"clash", file, "--clearance", "0.05", "--out", out}).status, 0);
+    const json report = json::parse(read_file(out + "/report.json"));
+    std::istringstream table(read_file(out + "/report.csv"));
+    std::string line;
+    std::getline(table, line);
+    std::size_t row = 0, shorter = 0;
+    for (; std::getline(table, line); ++row) {
+        std::istringstream cells(line);
+        std::vector<std::string> values;
+        for (std::string cell; std::getline(cells, cell, ',');)
+            values.push_back(cell);
+        const json& clash = report["clashes"][row];
+        for (std::size_t i = 0; i < 6; ++i) {
+            const std::string& cell = values.at(11 + i);
+            const double exact = clash[i < 3 ? "point_a" : "point_b"][i % 3].get<double>();
+            EXPECT_EQ(cell.find('e'), std::string::npos) << line;
+            EXPECT_LE(cell.size(), 12U) << line;
+            // The coordinates are in single precision, at most 50 m from the origin.
+            EXPECT_NEAR(std::stod(cell), exact, 1e-5) << line;
+            shorter += cell.size() < fmt::format("{}", exact).size() ? 1 : 0;
+        }
+    }
+    EXPECT_EQ(row, report["clashes"].size());
+    EXPECT_GT(shorter, 0U);
 }
 
 TEST_F(ClashTest, ALengthLikeAUnitForgottenIsAskedBack) {

@@ -43,6 +43,44 @@ TEST(Info, CountsDefects) {
     EXPECT_EQ(file["nonmanifold_edges"], 1); // the diagonal: used by three triangles
 }
 
+/// The line of the bounds of a model that is one triangle.
+std::string bounds_of(const std::string& a, const std::string& b, const std::string& c) {
+    const TemporaryFolder folder;
+    const std::string file =
+        folder.write("t.obj", "v " + a + "\nv " + b + "\nv " + c + "\nf 1 2 3\n");
+    const std::string text = run_abut({"info", file}).out;
+    const std::size_t at = text.find("  bounds      ");
+    return at == std::string::npos ? text : text.substr(at + 14, text.find('\n', at) - at - 14);
+}
+
+TEST(Info, BoundsHaveTheDigitsThatMeanSomething) {
+    EXPECT_EQ(bounds_of("-7e-10 0 0", "1.2 0 0.25", "0 3 1e-17"), "(0, 0, 0) to (1.2, 3, 0.25) m");
+    // Six digits would not tell the ends apart.
+    EXPECT_EQ(bounds_of("1000000.25 0 0", "1000003.5 0 0", "1000001 2 0"),
+              "(1000000.25, 0, 0) to (1000003.5, 2, 0) m");
+    EXPECT_EQ(bounds_of("0.0001234567 0 0", "0.0002 0 0", "0 0.0003 0"),
+              "(0, 0, 0) to (0.0002, 0.0003, 0) m");
+    EXPECT_EQ(bounds_of("-123456 0 0", "654321 7 0", "0 20 -30"),
+              "(-123456, 0, -30) to (654321, 20, 0) m");
+    EXPECT_EQ(bounds_of("0.333333333333333 0 0", "1 0 0", "1 1 0"),
+              "(0.333333, 0, 0) to (1, 1, 0) m");
+}
+
+TEST(Info, BoundsAreRoundedAsTheFileIs) {
+    const TemporaryFolder folder;
+    Scene scene;
+    Mesh mesh = unit_box();
+    for (Vec3& p : mesh.positions)
+        p = {p.x + 5e6, p.y - 7e-10, p.z};
+    scene.meshes = {mesh};
+    scene.parts = {part("box", "", 0, Transform{})};
+    const std::string file = folder / "far.glb";
+    write_glb(scene, file);
+    const std::string text = run_abut({"info", file}).out;
+    EXPECT_NE(text.find("  bounds      (5000000, 0, 0) to (5000001, 1, 1) m\n"), std::string::npos)
+        << text;
+}
+
 TEST(Info, CountsConvexPieces) {
     const TemporaryFolder folder;
     const std::string box = folder.write("box.obj", box_obj());

@@ -48,6 +48,27 @@ std::vector<std::string> examples_of(const std::vector<std::string>& verb) {
     return examples;
 }
 
+/// How often a text has a word.
+std::size_t count_of(const std::string& text, const std::string& word) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+        ++count;
+    return count;
+}
+
+TEST(Help, ListsChoicesOnce) {
+    const std::string clash = run_abut({"clash", "--help"}).out;
+    EXPECT_EQ(count_of(clash, "mep-structure"), 1U) << clash;
+    EXPECT_EQ(count_of(clash, "part (default)"), 1U) << clash;
+    EXPECT_EQ(count_of(clash, "One of part, volume"), 0U) << clash;
+    const std::string scene = run_abut({"scene", "--help"}).out;
+    EXPECT_EQ(count_of(scene, "One of plant"), 0U) << scene;
+    EXPECT_EQ(count_of(run_abut({"contains", "--help"}).out, "on_surface"), 1U);
+    // Choices that the description does not tell are listed.
+    EXPECT_NE(clash.find("One of"), std::string::npos);
+    EXPECT_EQ(count_of(run_abut({"collide", "--help"}).out, "kdop18"), 1U);
+}
+
 /// A folder with a small file for each name that the examples use.
 class Examples : public ::testing::Test {
 protected:

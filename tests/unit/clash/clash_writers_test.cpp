@@ -301,9 +301,39 @@ TEST_F(ClashWriters, AnEmptyReportIsWhole) {
     EXPECT_NE(read("report.html").find("</html>"), std::string::npos);
 }
 
+/// The columns from `distance` to `point_b_z`, and the volume.
+std::vector<std::string> csv_lengths(const std::vector<std::string>& row) {
+    std::vector<std::string> cells(row.begin() + 10, row.begin() + 17);
+    cells.push_back(row.at(23));
+    return cells;
+}
+
+TEST_F(ClashWriters, CsvHasNoDigitsThatRoundingMade) {
+    Sample sample;
+    using Row = std::vector<std::string>;
+    Clash& doubles = sample.report.clashes[0];
+    doubles.rounding = 1e-15;
+    doubles.distance = -0.1 - 0.2;
+    doubles.point_a = {1.2000000000000002, -7e-17, 1.0 / 3};
+    doubles.point_b = {-0.0, 1234567.890123456, 2e-3};
+    doubles.volume = 0.1 + 0.2, doubles.volume_error = 3e-9;
+    Clash& singles = sample.report.clashes[1];
+    singles.rounding = 8e-7;
+    singles.point_a = {1.2000000476837158, -3e-8, 12345.678901};
+    singles.point_b = {1e6 + 0.1234567, -5e-7, 100};
+    singles.volume = 0;
+    write_clash_csv(sample.report, sample.models, path("report.csv"));
+    const auto rows = parse_csv(read("report.csv"));
+    EXPECT_EQ(csv_lengths(rows.at(1)),
+              (Row{"-0.3", "1.2", "0", "0.333333333", "0", "1234567.890123456", "0.002", "0.3"}));
+    EXPECT_EQ(csv_lengths(rows.at(2)), (Row{"-0.3", "1.2", "0", "12345.678901", "1000000.1234567",
+                                            "-0.0000005", "100", "0"}));
+}
+
 TEST_F(ClashWriters, CsvHasTheColumnsAndValues) {
     Sample sample;
     sample.report.clashes[0].rule = "a rule";
+    sample.report.clashes[0].point_b.x = 4e5; // doubles there are rounded by 1e-10
     sample.report.clashes[4].distance = kInfinity;
     write_clash_csv(sample.report, sample.models, path("report.csv"));
     const auto rows = parse_csv(read("report.csv"));
@@ -345,13 +375,13 @@ TEST_F(ClashWriters, CsvHasTheColumnsAndValues) {
                             "IfcFlowSegment",
                             "models/structure.glb",
                             "models/pipes.glb",
-                            "-0.30000000000000004",
-                            "0.3333333333333333",
+                            "-0.3",
+                            "0.3333333333",
                             "-2",
-                            "1e-300",
-                            "4e+20",
+                            "0",
+                            "400000",
                             "5.5",
-                            "-0",
+                            "0",
                             "0",
                             "0",
                             "1",

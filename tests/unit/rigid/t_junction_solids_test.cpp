@@ -184,6 +184,45 @@ TEST(TJunctionSolids, EachIsOrientedByItself) {
         }
 }
 
+/// As box_with_t_junctions, with the four squares on the face x = 1, y = 1 or z = 1 (axis 0, 1, 2).
+Mesh turned_box_with_t_junctions(const Vec3& at, int axis) {
+    Mesh m = box_with_t_junctions({0, 0, 0});
+    for (Vec3& p : m.positions)
+        p = (axis == 0 ? Vec3{p.z, p.x, p.y} : axis == 1 ? Vec3{p.y, p.z, p.x} : p) + at;
+    return m;
+}
+
+/// Two boxes with only an edge in common: where one of its faces is cut in halves, an edge has but one face of
+/// each box, as if these were neighbours.
+TEST(TJunctionSolids, EdgesInCommonJoinNoBoxes) {
+    for (int axis_a = 0; axis_a < 3; ++axis_a)
+        for (int axis_b = 0; axis_b < 3; ++axis_b)
+            for (int inwards = 0; inwards < 4; ++inwards)
+                for (const Vec3& at :
+                     {Vec3{1, 1, 0}, Vec3{-1, 1, 0}, Vec3{1, 0, 1}, Vec3{0, -1, 1}}) {
+                    SCOPED_TRACE(testing::Message() << axis_a << axis_b << inwards);
+                    Mesh a = turned_box_with_t_junctions({0, 0, 0}, axis_a),
+                         b = turned_box_with_t_junctions(at, axis_b);
+                    a = (inwards & 1) != 0 ? reversed(a) : a;
+                    b = (inwards & 2) != 0 ? reversed(b) : b;
+                    const Mesh both = with_merged_vertices(joined(a, b));
+                    EXPECT_NEAR(volume_of(both), 2, 1e-3);
+                    EXPECT_EQ(contains(Model(both), {}, at + Vec3{0.5, 0.4, 0.3}).side,
+                              Side::inside);
+                }
+}
+
+/// A box on a part of another one's face, with an edge of it in common.
+TEST(SolidsInsideOut, BoxesOnAPartOfAFace) {
+    const Mesh large = box_mesh({1, 2, 0}, {3, 3, 3}), small = box_mesh({0, 2, 1}, {1, 3, 3});
+    for (int inwards = 0; inwards < 4; ++inwards) {
+        const Mesh both = joined((inwards & 1) != 0 ? reversed(small) : small,
+                                 (inwards & 2) != 0 ? reversed(large) : large);
+        EXPECT_NEAR(volume_of(both), 8, 1e-9);
+        EXPECT_EQ(contains(Model(both), {}, {0.5, 2.4, 2}).side, Side::inside);
+    }
+}
+
 /// A sheet that hangs by an edge or a vertex of a solid with T-junctions bounds nothing, and hides nothing.
 TEST(TJunctionSolids, SheetsThatHangByThemHideNone) {
     const Mesh solid = box_with_t_junctions({0, 0, 0});
