@@ -121,12 +121,12 @@ public:
                 ++end;
             add_region(without_beside(all.subspan(begin, end - begin), memory.facing), memory);
         }
-        nearest_ = std::sqrt(memory.meetings.nearest_sq);
+        nearest_ = std::sqrt(memory.meetings.nearest_sq) + slight_depth();
         memory.trim();
         // The outer border of a ring stands for the inner one too.
         return std::move(manifolds_.empty() ? holes_ : manifolds_);
     }
-    /// The distance of the nearest triangles, of those that are only near.
+    /// A bound of the distance of the nearest triangles, of those that are only near.
     [[nodiscard]] double nearest() const { return nearest_; }
 
 private:
