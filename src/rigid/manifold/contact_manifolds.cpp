@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <optional>
 #include <span>
@@ -121,12 +122,12 @@ public:
                 ++end;
             add_region(without_beside(all.subspan(begin, end - begin), memory.facing), memory);
         }
-        nearest_ = std::sqrt(memory.meetings.nearest_sq);
+        nearest_ = std::sqrt(memory.meetings.nearest_sq) + slight_depth();
         memory.trim();
         // The outer border of a ring stands for the inner one too.
         return std::move(manifolds_.empty() ? holes_ : manifolds_);
     }
-    /// The distance of the nearest triangles, of those that are only near.
+    /// A bound of the distance of the nearest triangles, of those that are only near.
     [[nodiscard]] double nearest() const { return nearest_; }
 
 private:
@@ -282,6 +283,34 @@ ModelManifold manifold_of_nearest(const PlacedPair& pair, const std::vector<Cont
     return m;
 }
 
+/// Leaves out the pairs of triangles that are copies of others: piles of copies meet in as many pairs
+/// as the product of their heights. Does nothing for few pairs.
+///
+/// Cost        the first time for a model, that of slot_copies.
+void leave_out_copies(const Model& a, const Model& b, std::vector<Contact>& pairs) {
+    constexpr std::size_t kManyPairs = 4096;
+    if (pairs.size() < kManyPairs)
+        return;
+    const auto copies_of = [](const ModelData& data) {
+        const std::vector<bool>& by_slot = data.slot_copies();
+        std::vector<bool> copies(by_slot.size());
+        for (std::uint32_t slot = 0; slot < by_slot.size(); ++slot)
+            if (by_slot[slot])
+                copies[data.triangle_at(slot)] = true;
+        return copies;
+    };
+    const std::vector<bool> of_a = copies_of(a.data()), of_b = copies_of(b.data());
+    const auto is_in = [](const std::vector<bool>& copies, std::uint32_t triangle) {
+        return !copies.empty() && copies[triangle];
+    };
+    if (!of_a.empty() || !of_b.empty())
+        pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
+                                   [&](const Contact& c) {
+                                       return is_in(of_a, c.pair.a) || is_in(of_b, c.pair.b);
+                                   }),
+                    pairs.end());
+}
+
 /// Tells what counts as contact of a solid inside the other one, where the surfaces share no point.
 enum class Inside : std::uint8_t { apart, in_contact };
 
@@ -298,7 +327,8 @@ std::vector<ModelManifold> manifolds_of(const Model& a, const Transform& world_f
         // A transform was flattened: the pair holds copies of the meshes in world coordinates.
         return manifolds_of(Model(pair.a().mesh()), {}, Model(pair.b().mesh()), {}, options,
                             inside);
-    const std::vector<Contact> pairs = meeting_pairs(pair, options.margin);
+    std::vector<Contact> pairs = meeting_pairs(pair, options.margin);
+    leave_out_copies(a, b, pairs);
     std::vector<ModelManifold> manifolds;
     if (inside == Inside::in_contact && !any_meets(pairs))
         manifolds = contained_manifold(a, world_from_a, b, world_from_b);

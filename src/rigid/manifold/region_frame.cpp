@@ -26,14 +26,27 @@ constexpr double kSameNormal = 1 - 0x1p-30;
 struct RegionSums {
     Vec3 normals_a, normals_b;   ///< of crossing triangles, weighted
     Vec3 touching_a, touching_b; ///< of touching and coplanar triangles, each counted once
-    Vec3 across;                 ///< directions across the features of touching triangles
-    Vec3 gaps;                   ///< directions, weighted
-    Vec3 common_area;            ///< of touching faces
+    Vec3 across; ///< directions across the features of triangles that touch, to rounding
+    int across_count = 0;
+    const TriangleMeeting* in_touch = nullptr; ///< one of those
+    Vec3 gaps;                                 ///< directions, weighted
+    Vec3 common_area;                          ///< of touching faces
     Vec3 moment;
     double length = 0; ///< of the curve
     double gap_weight = 0;
     bool touches = false;
     bool is_flush = false; ///< some touching faces have the same normal
+
+    void add_across(const TriangleMeeting& m) {
+        across = across + m.across, across_count += m.across != Vec3{} ? 1 : 0;
+        if (m.is_slight || m.kind != TriangleContact::none)
+            in_touch = &m;
+    }
+    /// Whether the features tell about one direction.
+    [[nodiscard]] bool agrees() const {
+        constexpr double kAgreeing = 1 - 0x1p-10;
+        return across_count > 0 && abut::length(across) >= kAgreeing * across_count;
+    }
 };
 
 /// The kind of a meeting; triangles that cross without a segment count as touching.
@@ -52,12 +65,13 @@ RegionSums sum_up(std::span<const TriangleMeeting> region) {
         } else if (kind == TriangleContact::touch) {
             s.touching_a = s.touching_a + m.normal_a, s.touching_b = s.touching_b + m.normal_b;
             s.common_area = s.common_area + m.common_area;
-            s.across = s.across + m.across;
+            s.add_across(m);
             s.touches = true;
             s.is_flush = s.is_flush || dot(m.normal_a, m.normal_b) > kSameNormal;
         } else {
             // The direction of a gap that is rounding is that of the features.
             const Vec3 way = m.is_slight ? m.across : normalized_or_zero(m.to - m.from);
+            s.add_across(m);
             s.common_area = s.common_area + m.common_area;
             s.gaps = s.gaps + m.weight * way;
             s.gap_weight += way != Vec3{} ? m.weight : 0;
@@ -139,6 +153,18 @@ bool encloses_a_gap(std::span<const TriangleMeeting> region, const Vec3& centre)
     return inwards < 0;
 }
 
+/// The direction across features that touch. Where these tell none, or several, the other triangles
+/// around the place may tell more.
+Vec3 normal_of_touching(const ManifoldSide& a, const ManifoldSide& b, const RegionSums& s) {
+    if (s.agrees())
+        return normalized_or_zero(s.across);
+    const Vec3 there = direction_at(a, b, s.in_touch->from, s.in_touch->to);
+    if (there != Vec3{})
+        return there;
+    return s.across != Vec3{} ? normalized_or_zero(s.across)
+                              : flatter_side(s.touching_a, s.touching_b);
+}
+
 /// Turns the normal of a pair without an inside so that it points to the side on which the other
 /// model's middle is.
 Vec3 turned_to_outside(const Vec3& normal, const ManifoldSide& a, const ManifoldSide& b,
@@ -165,16 +191,11 @@ RegionFrame region_frame(const ManifoldSide& a, const ManifoldSide& b,
         frame.normal = normal_of_curve(region, s, frame.centre, whole);
     else if (s.common_area != Vec3{})
         frame.normal = normalized_or_zero(s.common_area);
-    else if (s.touches)
-        frame.normal = s.across != Vec3{} ? normalized_or_zero(s.across)
-                                          : flatter_side(s.touching_a, s.touching_b);
+    else if (s.in_touch != nullptr)
+        frame.normal = normal_of_touching(a, b, s);
     else
         frame.normal =
             snapped(normalized_or_zero(s.gaps), region, TriangleContact::none, s.gap_weight);
-    // Triangles that touch at vertices or along edges only: those around them may tell more.
-    if (!frame.crosses && s.common_area == Vec3{} && s.across == Vec3{} && s.gaps == Vec3{})
-        if (const Vec3 n = direction_at(a, b, region[0].from, region[0].to); n != Vec3{})
-            frame.normal = n;
     if ((frame.crosses || s.touches) && !(a.is_oriented() && b.is_oriented()))
         frame.normal = turned_to_outside(frame.normal, a, b, frame.centre);
     if (frame.normal == Vec3{})

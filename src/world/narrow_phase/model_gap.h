@@ -16,4 +16,15 @@ BodyGap model_gap(const Model& a, const Transform& world_from_a, const Model& b,
                   const Transform& world_from_b, double upper_bound, Depths depths,
                   WarmStart& warm_start);
 
+/// A distance above this share of the coordinates is not rounding.
+inline constexpr double kClearOfFaces = 0x1p-40;
+
+/// Sets the gap of a surface and a solid that touch. If the surface lies inside, clear of the solid's
+/// faces, these tell no direction.
+inline void set_touching(BodyGap& gap, double clear) {
+    if (gap.distance > clear)
+        gap.normal = {};
+    gap.distance = 0;
+}
+
 } // namespace abut

@@ -189,7 +189,7 @@ BodyGap measure(const PlacedSurface& a, const PlacedConvex& b, double upper_boun
                             warm_start.surfaces);
     // A surface wholly inside the solid may be far from its faces, but is in contact.
     if (gap.distance > 0 && meet(a, b, warm_start))
-        gap.distance = 0, gap.normal = {};
+        set_touching(gap, kClearOfFaces * (sum_of_sizes(gap.point_b) + b.shape.solid.data().reach));
     return gap;
 }
 
@@ -255,11 +255,11 @@ BodyGap measure(const PlacedSurface& a, const PlacedRounded& b, double upper_bou
                       upper_bound, depths, warm_start.surfaces);
         // A surface wholly inside the box may be far from its faces, but is in contact. The faces of
         // the box are rounded.
-        const bool is_clear = gap.distance > 0x1p-40 * (sum_of_sizes(solid.centre) + solid.half[0] +
-                                                        solid.half[1] + solid.half[2]);
+        const double clear = kClearOfFaces * (sum_of_sizes(solid.centre) + solid.half[0] +
+                                              solid.half[1] + solid.half[2]);
         if (gap.distance > 0 &&
-            (is_clear ? any_component_inside(a, solid) : meet(a, b, warm_start)))
-            gap.distance = 0, gap.normal = {};
+            (gap.distance > clear ? any_component_inside(a, solid) : meet(a, b, warm_start)))
+            set_touching(gap, clear);
         return gap;
     }
 }
@@ -406,23 +406,26 @@ bool touch(const PlacedBody& a, const PlacedBody& b, PairWarmStart& warm_start) 
 
 BodyGap gap_between(const PlacedBody& a, const PlacedBody& b, double upper_bound, Depths depths,
                     PairWarmStart& warm_start) {
-    // Whether bodies touch, `touch` decides alone. Twice the rounding: what it decides is rounded
-    // too. A gap up to there must be known, not only that it exceeds a lower bound.
+    // Whether bodies touch, `touch` decides alone. What it decides is rounded too: a gap up to twice
+    // the rounding must be known, not only that it exceeds a lower bound.
     const double rounding = contact_rounding(a, b);
     const double bound = std::max(upper_bound, 2 * rounding);
-    BodyGap gap = with_shapes(
-        a, b,
-        [&](const auto& x, const auto& y) { return measure(x, y, bound, depths, warm_start); },
-        [](const BodyGap& gap_of_b) { return turned_round(gap_of_b); });
+    const auto measured = [&](Depths asked) {
+        return with_shapes(
+            a, b,
+            [&](const auto& x, const auto& y) { return measure(x, y, bound, asked, warm_start); },
+            [](const BodyGap& gap_of_b) { return turned_round(gap_of_b); });
+    };
+    BodyGap gap = measured(depths);
     // Bodies that share a point are not apart, even if rounding says so.
     if (depths == Depths::yes && !(is_convex(a.shape) && is_convex(b.shape)))
         gap.distance = std::min(gap.distance, 0.0);
     if (rounding == 0 || !(std::abs(gap.distance) <= 2 * rounding))
         return gap;
-    if (touch(a, b, warm_start))
-        gap.distance = std::min(gap.distance, 0.0);
-    else
-        gap.distance = std::max(gap.distance, rounding);
+    const bool meets = touch(a, b, warm_start);
+    if (!meets && gap.normal == Vec3{}) // its rounded triangles touch
+        gap.normal = measured(Depths::yes).normal;
+    gap.distance = meets ? std::min(gap.distance, 0.0) : std::max(gap.distance, rounding);
     return gap;
 }
 
