@@ -153,7 +153,7 @@ bool is_first(const WorldSolid& a, const WorldSolid& b) {
 }
 
 /// The contacts of faces that bound no solid, of a and of b moved by a vector, and how far these faces go
-/// beyond each other.
+/// beyond each other. The point is told where b is not moved.
 SheetOverlap overlap_if_moved(const ClashPart& a, const ClashPart& b, const Vec3& by, double touch,
                               const std::function<bool(const Contact&)>& are_sheets) {
     Transform world = b.world_from_mesh;
@@ -165,7 +165,11 @@ SheetOverlap overlap_if_moved(const ClashPart& a, const ClashPart& b, const Vec3
             if (are_sheets(contact))
                 contacts.push_back(contact);
         });
-        return overlap_of_sheets(pair.a().solid(), pair.b().solid(), contacts, touch);
+        SheetOverlap overlap =
+            overlap_of_sheets(pair.a().solid(), pair.b().solid(), contacts, touch);
+        if (overlap.of_b)
+            overlap.point = overlap.point - by;
+        return overlap;
     };
     return a.blocks != nullptr || b.blocks != nullptr ? decide(BlocksPair(a, moved))
                                                       : decide(WholePair(a, moved));

@@ -32,7 +32,10 @@ ReachBounds as_known(const ReachBounds& bounds) {
 }
 /// A part without an upper bound is likely farther than all that have one.
 ReachBounds as_likely(const ReachBounds& bounds) {
-    return {bounds.high == kUnbounded ? kUnbounded : bounds.low, bounds.high, bounds.point};
+    ReachBounds likely = bounds;
+    if (bounds.high == kUnbounded)
+        likely.low = kUnbounded;
+    return likely;
 }
 
 void sort_unique(std::vector<std::uint32_t>& numbers) {
@@ -46,7 +49,9 @@ ReachBounds lesser(const ReachBounds& a, const ReachBounds& b) {
     return a.high == b.high ? (a.low <= b.low ? a : b) : (a.high < b.high ? a : b);
 }
 ReachBounds greater(const ReachBounds& a, const ReachBounds& b) {
-    return {std::max(a.low, b.low), std::max(a.high, b.high), a.low >= b.low ? a.point : b.point};
+    ReachBounds bounds = a.low >= b.low ? a : b;
+    bounds.high = std::max(a.high, b.high);
+    return bounds;
 }
 
 SheetParts::SheetParts(const Sheet& own, const OtherSheet& other,

@@ -25,6 +25,7 @@ struct ReachBounds {
     double low = 0; ///< reached at a point
     double high = 0;
     Vec3 point;
+    bool of_second = false; ///< whether the point is on the second of two sheets
 };
 /// The bounds of the lesser and of the greater of two distances.
 ReachBounds lesser(const ReachBounds& a, const ReachBounds& b);

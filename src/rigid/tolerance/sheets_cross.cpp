@@ -80,7 +80,8 @@ public:
         }
         const ReachBounds bounds = parts_[0] ? reach_by(&SheetParts::reach_beyond) : ReachBounds{};
         if (bounds.low > options_.rounding)
-            result.depth = bounds.low, result.point = origin_ + bounds.point;
+            result.depth = bounds.low, result.point = origin_ + bounds.point,
+            result.of_b = bounds.of_second;
         return result;
     }
 
@@ -133,9 +134,11 @@ private:
     using ReachOfCurve = ReachBounds (SheetParts::*)(std::uint32_t) const;
     [[nodiscard]] ReachBounds reach_by(ReachOfCurve reach) const {
         ReachBounds most;
-        for (const std::uint32_t curve : curves_)
-            most =
-                greater(most, lesser(((*parts_[0]).*reach)(curve), ((*parts_[1]).*reach)(curve)));
+        for (const std::uint32_t curve : curves_) {
+            ReachBounds of_second = ((*parts_[1]).*reach)(curve);
+            of_second.of_second = true;
+            most = greater(most, lesser(((*parts_[0]).*reach)(curve), of_second));
+        }
         return most;
     }
 

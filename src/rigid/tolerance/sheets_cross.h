@@ -18,7 +18,8 @@ namespace abut {
 struct SheetOverlap {
     Proof within = Proof::holds; ///< whether the depth is at most the tolerance
     double depth = 0;            ///< 0 if it is not more than the rounding
-    Vec3 point; ///< of one surface, in the world, that is so far from the other one
+    Vec3 point;        ///< of one surface, in the world, that is so far from the other one
+    bool of_b = false; ///< whether the point is on b
 };
 
 /// In          contacts: all. `tolerance` is positive. No vertex of one surface lies on the other one:
