@@ -12,6 +12,12 @@ struct LinePiece {
     Vec3 p, q;
 };
 
+/// A straight piece of a line, with the line's direction: a short piece does not tell it well.
+struct DirectedPiece {
+    LinePiece piece;
+    Vec3 along; ///< unit vector, either way
+};
+
 /// A part of a line piece, by the distances of its ends from the piece's first point.
 struct LineSpan {
     double from = 0, to = 0;

@@ -4,10 +4,23 @@
 #include "rigid/tolerance/point_order.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace abut {
 
-Sheet::Sheet(const WorldSolid& surface, const Vec3& origin) {
+namespace {
+
+/// The unit normal of a triangle; zero if it is not higher than `thin`.
+Vec3 normal_unless_thin(const Triangle& t, double thin) {
+    const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
+    const double longest = std::sqrt(
+        std::max({length_sq(t[1] - t[0]), length_sq(t[2] - t[1]), length_sq(t[0] - t[2])}));
+    return length(normal) <= thin * longest ? Vec3{} : normalized_or_zero(normal);
+}
+
+} // namespace
+
+Sheet::Sheet(const WorldSolid& surface, const Vec3& origin, double thin) {
     std::vector<std::pair<std::uint32_t, Triangle>> numbered;
     surface.for_each_block(surface.world_box(), [&](const WorldSolid::Block& block) {
         const auto count = block.model.data().mesh().triangles.size();
@@ -24,7 +37,7 @@ Sheet::Sheet(const WorldSolid& surface, const Vec3& origin) {
     std::vector<Vec3> positions;
     for (const auto& [number, t] : numbered) {
         triangles_.push_back(t);
-        normals_.push_back(normalized_or_zero(cross(t[1] - t[0], t[2] - t[0])));
+        normals_.push_back(normal_unless_thin(t, thin));
         positions.insert(positions.end(), t.begin(), t.end());
     }
     std::sort(positions.begin(), positions.end(), is_before);

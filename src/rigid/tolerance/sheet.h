@@ -23,14 +23,16 @@ struct FaceSide {
 /// Frame       the world, with its origin moved to one that is given.
 class Sheet {
 public:
-    Sheet(const WorldSolid& surface, const Vec3& origin);
+    /// In      thin: faces that are not higher than that are no part of the sheet; what is on both sides
+    ///         of them is as near.
+    Sheet(const WorldSolid& surface, const Vec3& origin, double thin);
 
     [[nodiscard]] std::size_t triangles() const { return triangles_.size(); }
     [[nodiscard]] const Triangle& triangle(std::uint32_t i) const { return triangles_[i]; }
-    /// The unit normal of a triangle; zero if it has no area.
+    /// The unit normal of a triangle; zero if it is thin.
     [[nodiscard]] const Vec3& normal(std::uint32_t i) const { return normals_[i]; }
 
-    /// Calls visit(sides) for each edge, with the sides of all triangles there that have an area.
+    /// Calls visit(sides) for each edge, with the sides of all triangles there that are not thin.
     template <typename Visit>
     void for_each_edge(const Visit& visit) const {
         for (std::size_t first = 0, last = 0; first < edges_.size(); first = last) {

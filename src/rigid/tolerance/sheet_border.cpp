@@ -111,7 +111,7 @@ SheetBorder::Division SheetBorder::division_of(const Triangle& face, const Vec3&
 
 /// Adds the parts of a chord to which a border edge is nearest.
 void SheetBorder::add_lines(const FaceSide& side, const LinePiece& chord, double reach,
-                            std::vector<LinePiece>& lines) const {
+                            std::vector<DirectedPiece>& lines) const {
     const double nearest = nearest_place(chord, side.line);
     const auto at = [&](double share) { return chord.p + share * (chord.q - chord.p); };
     if (distance_to_line(at(nearest), side.line) > reach)
@@ -135,7 +135,8 @@ void SheetBorder::add_lines(const FaceSide& side, const LinePiece& chord, double
                      to = j + 1 == places.size() ? places[j] : boundary(places[j], places[j + 1]);
         // A little more, so that lines that meet leave no gap.
         const double more = 2 * near_ / std::max(length(chord.q - chord.p), near_);
-        lines.push_back({at(std::max(0.0, from - more)), at(std::min(1.0, to + more))});
+        lines.push_back({{at(std::max(0.0, from - more)), at(std::min(1.0, to + more))},
+                         normalized_or_zero(chord.q - chord.p)});
     }
 }
 

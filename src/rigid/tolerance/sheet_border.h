@@ -20,8 +20,8 @@ public:
 
     /// What the border means to a triangle of another sheet.
     struct Division {
-        bool is_near = false;         ///< parts of it may lie beyond the border
-        std::vector<LinePiece> lines; ///< where what lies beyond the border begins
+        bool is_near = false;             ///< parts of it may lie beyond the border
+        std::vector<DirectedPiece> lines; ///< where what lies beyond the border begins
     };
     /// Looks at what is within `reach` of the border.
     ///
@@ -36,7 +36,7 @@ public:
 private:
     [[nodiscard]] bool is_nearest(const FaceSide& side, const Vec3& point, double reach) const;
     void add_lines(const FaceSide& side, const LinePiece& chord, double reach,
-                   std::vector<LinePiece>& lines) const;
+                   std::vector<DirectedPiece>& lines) const;
 
     const WorldSolid& surface_;
     const double near_;

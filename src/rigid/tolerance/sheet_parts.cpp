@@ -145,8 +145,8 @@ void SheetParts::connect_sides(const std::vector<FaceSide>& sides, const BoxInde
     std::vector<LinePiece> lines;
     std::vector<Box3> boxes;
     for (const auto& of_face : lines_)
-        for (const LinePiece& line : of_face)
-            lines.push_back(line), boxes.push_back(box_of(line));
+        for (const DirectedPiece& line : of_face)
+            lines.push_back(line.piece), boxes.push_back(box_of(line.piece));
     const BoxIndex index_of_lines(std::move(boxes));
     for (std::uint32_t i = 0; i < sides.size(); ++i) {
         const LinePiece& line = sides[i].line;
@@ -194,14 +194,17 @@ void SheetParts::find_sides(std::span<const SheetCrossing> crossings,
         bool is_over;
     };
     for (const SheetCrossing& c : crossings) {
-        const Vec3 upward = other_.sheet.normal(c.other),
-                   along = normalized_or_zero(c.line.q - c.line.p);
+        const LinePiece& line = c.line.piece;
+        const Vec3 along = normalized_or_zero(line.q - line.p);
+        Vec3 upward = other_.sheet.normal(c.other);
         std::vector<Neighbour> neighbours;
         std::vector<double> ends;
-        index.for_each_overlap(grown(box_of(c.line), near_), [&](std::uint32_t i) {
+        index.for_each_overlap(grown(box_of(line), near_), [&](std::uint32_t i) {
             if (beyond_[sides[i].owner])
                 return;
-            if (const auto span = common_span(c.line, sides[i].line, near_, 2 * near_)) {
+            if (const auto span = common_span(line, sides[i].line, near_, 2 * near_)) {
+                if (upward == Vec3{}) // the other face is thin
+                    upward = sides[i].inward;
                 neighbours.push_back({*span, i, dot(sides[i].inward, upward) > 0});
                 ends.push_back(span->from);
                 ends.push_back(span->to);
@@ -213,7 +216,7 @@ void SheetParts::find_sides(std::span<const SheetCrossing> crossings,
                 continue;
             const double at = 0.5 * (ends[i] + ends[i - 1]);
             Sides found;
-            const Vec3 middle = c.line.p + at * along;
+            const Vec3 middle = line.p + at * along;
             for (const Neighbour& n : neighbours)
                 if (n.span.from < at && at < n.span.to && goes_on(sides[n.side], middle))
                     (n.is_over ? found.over : found.under)

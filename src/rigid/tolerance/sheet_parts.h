@@ -16,7 +16,7 @@ namespace abut {
 /// A line along which a triangle of one sheet crosses one of another.
 struct SheetCrossing {
     std::uint32_t own = 0, other = 0; ///< triangles
-    LinePiece line;
+    DirectedPiece line;
     std::uint32_t curve = 0; ///< of which the line is a part
 };
 
@@ -91,7 +91,7 @@ private:
     const ReachSearch::Options options_;
     std::vector<Piece> pieces_;
     std::vector<std::uint32_t> first_piece_;            ///< by face; and the number of pieces
-    std::vector<std::vector<LinePiece>> lines_;         ///< by face
+    std::vector<std::vector<DirectedPiece>> lines_;     ///< by face
     std::vector<bool> beyond_;                          ///< by piece: beyond the other one's border
     DisjointSets sets_{0};                              ///< of pieces
     std::map<std::uint32_t, std::vector<Sides>> sides_; ///< by curve

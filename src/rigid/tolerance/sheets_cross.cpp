@@ -1,5 +1,6 @@
 #include "rigid/tolerance/sheets_cross.h"
 
+#include "geometry/triangle_triangle_intersect.h"
 #include "geometry/triangle_triangle_segment.h"
 #include "rigid/penetration/local_penetration.h"
 #include "rigid/tolerance/sheet_parts.h"
@@ -36,24 +37,24 @@ public:
     SheetPair(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts,
               double tolerance)
         : origin_(a.world_triangle(contacts[0].pair.a)[0]),
-          sheets_{Sheet(a, origin_), Sheet(b, origin_)}, surfaces_{a.seen_from(origin_),
-                                                                   b.seen_from(origin_)},
-          near_(kNear * length(sheet_shift(a, b))), borders_{SheetBorder(sheets_[0], *surfaces_[0],
-                                                                         near_),
-                                                             SheetBorder(sheets_[1], *surfaces_[1],
-                                                                         near_)},
+          near_(kNear * length(sheet_shift(a, b))), sheets_{Sheet(a, origin_, near_),
+                                                            Sheet(b, origin_, near_)},
+          surfaces_{a.seen_from(origin_), b.seen_from(origin_)},
+          borders_{SheetBorder(sheets_[0], *surfaces_[0], near_),
+                   SheetBorder(sheets_[1], *surfaces_[1], near_)},
           tolerance_(tolerance) {
         options_ = {.rounding = depth_rounding(a, b) + length(sheet_shift(a, b)),
                     .both_sides = true,
                     .budget = kBudget};
         for (const Contact& contact : contacts) {
-            const Intersection common = triangle_triangle_segment(a.world_triangle(contact.pair.a),
-                                                                  b.world_triangle(contact.pair.b));
-            if (common.count != 2 || sheets_[0].normal(contact.pair.a) == Vec3{} ||
-                sheets_[1].normal(contact.pair.b) == Vec3{})
+            const Triangle s = a.world_triangle(contact.pair.a),
+                           t = b.world_triangle(contact.pair.b);
+            const Intersection common = triangle_triangle_segment(s, t);
+            if (common.count != 2 || projection_axis(s) < 0 || projection_axis(t) < 0)
                 continue;
             const LinePiece line{common.corners[0] - origin_, common.corners[1] - origin_};
-            crossings_[0].push_back({contact.pair.a, contact.pair.b, line, 0});
+            crossings_[0].push_back(
+                {contact.pair.a, contact.pair.b, directed(line, contact.pair), 0});
         }
         find_curves();
         for (const SheetCrossing& c : crossings_[0])
@@ -86,13 +87,22 @@ public:
     }
 
 private:
+    /// A line in which two triangles cross. If it is short, their normals tell its direction.
+    [[nodiscard]] DirectedPiece directed(const LinePiece& line, const TrianglePair& pair) const {
+        constexpr double kLong = 4096, kSteep = 1e-3;
+        const Vec3 of_planes = cross(sheets_[0].normal(pair.a), sheets_[1].normal(pair.b));
+        const bool is_short = length(line.q - line.p) < kLong * near_;
+        return {line, normalized_or_zero(is_short && length(of_planes) > kSteep ? of_planes
+                                                                                : line.q - line.p)};
+    }
+
     /// Lines are on one curve where their ends meet. Curves that may be there only because of the shift
     /// are dropped.
     void find_curves() {
         std::vector<SheetCrossing>& crossings = crossings_[0];
         std::vector<Box3> ends;
         for (const SheetCrossing& c : crossings)
-            for (const Vec3& end : {c.line.p, c.line.q})
+            for (const Vec3& end : {c.line.piece.p, c.line.piece.q})
                 ends.push_back({end, end});
         const BoxIndex index(ends);
         DisjointSets curves(crossings.size());
@@ -103,7 +113,7 @@ private:
         for (std::uint32_t i = 0; i < crossings.size(); ++i) {
             crossings[i].curve = curves.root(i);
             Box3& box = extent[crossings[i].curve];
-            extend(box, crossings[i].line.p), extend(box, crossings[i].line.q);
+            extend(box, crossings[i].line.piece.p), extend(box, crossings[i].line.piece.q);
         }
         for (const auto& [curve, box] : extent)
             if (max_abs(box.upper - box.lower) > kTinyCurve * near_)
@@ -162,9 +172,9 @@ private:
     }
 
     const Vec3 origin_;
+    const double near_;
     const std::array<Sheet, 2> sheets_;
     const std::array<std::unique_ptr<const WorldSolid>, 2> surfaces_;
-    const double near_;
     const std::array<SheetBorder, 2> borders_;
     const double tolerance_;
     ReachSearch::Options options_;
