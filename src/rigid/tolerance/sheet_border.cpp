@@ -58,8 +58,6 @@ std::vector<double> places_on(const LinePiece& chord, const LinePiece& edge) {
         places.push_back(begin - begin * std::ldexp(1, -i));
         places.push_back(end + (1 - end) * std::ldexp(1, -i));
     }
-    std::sort(places.begin(), places.end());
-    places.erase(std::unique(places.begin(), places.end()), places.end());
     return places;
 }
 
@@ -79,6 +77,37 @@ double nearest_place(const LinePiece& chord, const LinePiece& edge) {
     return 0.5 * (from + to);
 }
 
+/// Where a chord meets a line in the same face, as a share of its length.
+std::optional<double> crossing_place(const LinePiece& chord, const DirectedPiece& line,
+                                     const Vec3& normal, double near) {
+    const Vec3 across = cross(normal, line.along);
+    const double at_p = dot(chord.p - line.piece.p, across),
+                 at_q = dot(chord.q - line.piece.p, across);
+    if ((at_p < 0) == (at_q < 0))
+        return std::nullopt;
+    const double share = at_p / (at_p - at_q);
+    const Vec3 on = chord.p + share * (chord.q - chord.p);
+    return distance_to_line(on, line.piece) <= near ? std::optional(share) : std::nullopt;
+}
+
+/// The part of a chord that is within a distance of an edge.
+std::optional<LinePiece> part_within(const LinePiece& chord, const LinePiece& edge, double reach) {
+    const auto at = [&](double share) { return chord.p + share * (chord.q - chord.p); };
+    const double nearest = nearest_place(chord, edge);
+    if (distance_to_line(at(nearest), edge) > reach)
+        return std::nullopt;
+    const auto end = [&](double out) {
+        double in = nearest;
+        if (distance_to_line(at(out), edge) <= reach)
+            return out;
+        for (int i = 0; i < 50; ++i)
+            (distance_to_line(at(0.5 * (in + out)), edge) <= reach ? in : out) = 0.5 * (in + out);
+        return in;
+    };
+    const LinePiece part{at(end(0)), at(end(1))};
+    return part.p == part.q ? std::nullopt : std::optional(part);
+}
+
 } // namespace
 
 SheetBorder::SheetBorder(const Sheet& sheet, const WorldSolid& surface, double near)
@@ -94,30 +123,71 @@ bool SheetBorder::is_nearest(const FaceSide& side, const Vec3& point, double rea
            !(surface_.nearest(point, {.bound = nearer, .enough = nearer}).distance < nearer);
 }
 
-SheetBorder::Division SheetBorder::division_of(const Triangle& face, const Vec3& normal,
-                                               double reach) const {
-    Division division;
+std::vector<DirectedPiece> SheetBorder::ends_on(const OtherFace& face, double reach) const {
     Box3 box;
-    for (const Vec3& corner : face)
+    for (const Vec3& corner : face.corners)
         extend(box, corner);
+    std::vector<BorderLine> lines;
     index_.for_each_overlap(grown(box, reach), [&](std::uint32_t i) {
-        const FaceSide& side = sides_[i];
-        division.is_near = true;
-        if (const auto chord = chord_of(face, normal, side.line.p, side.inward))
-            add_lines(side, *chord, reach, division.lines);
+        if (const auto chord =
+                chord_of(face.corners, face.normal, sides_[i].line.p, sides_[i].inward))
+            add_lines(i, *chord, face, reach, lines);
     });
-    return division;
+    bridge(lines, reach);
+    std::vector<DirectedPiece> ends;
+    for (const BorderLine& line : lines)
+        ends.push_back({line.line, normalized_or_zero(line.line.q - line.line.p)});
+    return ends;
 }
 
-/// Adds the parts of a chord to which a border edge is nearest.
-void SheetBorder::add_lines(const FaceSide& side, const LinePiece& chord, double reach,
-                            std::vector<DirectedPiece>& lines) const {
-    const double nearest = nearest_place(chord, side.line);
-    const auto at = [&](double share) { return chord.p + share * (chord.q - chord.p); };
-    if (distance_to_line(at(nearest), side.line) > reach)
+bool SheetBorder::are_neighbours(std::uint32_t i, std::uint32_t j) const {
+    const LinePiece &line = sides_[i].line, &other = sides_[j].line;
+    for (const Vec3& end : {line.p, line.q})
+        if (std::min(length(end - other.p), length(end - other.q)) <= near_)
+            return true;
+    return false;
+}
+
+/// Adds lines between those of border edges that meet. Where the border is twisted, their planes differ,
+/// and their lines may end beside each other where both edges are as near.
+void SheetBorder::bridge(std::vector<BorderLine>& lines, double reach) const {
+    const std::size_t count = lines.size();
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = i + 1; j < count; ++j) {
+            const auto [side, line] = lines[i];
+            const auto [other_side, other] = lines[j];
+            if (side == other_side || !are_neighbours(side, other_side))
+                continue;
+            LinePiece gap{line.p, other.p};
+            for (const Vec3& p : {line.p, line.q})
+                for (const Vec3& q : {other.p, other.q})
+                    if (length_sq(q - p) < length_sq(gap.q - gap.p))
+                        gap = {p, q};
+            const auto is_between = [&](double share) {
+                const Vec3 at = gap.p + share * (gap.q - gap.p);
+                return is_nearest(sides_[side], at, reach) ||
+                       is_nearest(sides_[other_side], at, reach);
+            };
+            if (gap.p != gap.q && is_between(0.25) && is_between(0.5) && is_between(0.75))
+                lines.push_back({side, gap});
+        }
+}
+
+/// Adds the parts of a line to which a border edge is nearest.
+void SheetBorder::add_lines(std::uint32_t number, const LinePiece& whole, const OtherFace& face,
+                            double reach, std::vector<BorderLine>& lines) const {
+    const FaceSide& side = sides_[number];
+    const std::optional<LinePiece> in_reach = part_within(whole, side.line, reach);
+    if (!in_reach)
         return;
+    const LinePiece& chord = *in_reach;
+    const auto at = [&](double share) { return chord.p + share * (chord.q - chord.p); };
     std::vector<double> places = places_on(chord, side.line);
-    places.insert(std::lower_bound(places.begin(), places.end(), nearest), nearest);
+    places.push_back(nearest_place(chord, side.line));
+    for (const DirectedPiece& crossed : face.crossed)
+        if (const auto place = crossing_place(chord, crossed, face.normal, near_))
+            places.push_back(*place);
+    std::sort(places.begin(), places.end());
     std::vector<bool> is_part;
     for (const double place : places)
         is_part.push_back(is_nearest(side, at(place), reach));
@@ -135,19 +205,8 @@ void SheetBorder::add_lines(const FaceSide& side, const LinePiece& chord, double
                      to = j + 1 == places.size() ? places[j] : boundary(places[j], places[j + 1]);
         // A little more, so that lines that meet leave no gap.
         const double more = 2 * near_ / std::max(length(chord.q - chord.p), near_);
-        lines.push_back({{at(std::max(0.0, from - more)), at(std::min(1.0, to + more))},
-                         normalized_or_zero(chord.q - chord.p)});
+        lines.push_back({number, {at(std::max(0.0, from - more)), at(std::min(1.0, to + more))}});
     }
-}
-
-bool SheetBorder::is_beyond(const Vec3& point) const {
-    const Vec3 nearest = surface_.nearest(point, WorldSolid::NearestSearch{}).point;
-    const double near = 4 * near_;
-    bool found = false;
-    index_.for_each_overlap(grown({nearest, nearest}, near), [&](std::uint32_t i) {
-        found = found || distance_to_line(nearest, sides_[i].line) <= near;
-    });
-    return found;
 }
 
 } // namespace abut

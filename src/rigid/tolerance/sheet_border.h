@@ -4,39 +4,43 @@
 #include "rigid/tolerance/sheet.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace abut {
 
-/// The border of a sheet, and what of another sheet lies beyond it: the points whose nearest point of
-/// the sheet is on its border.
-///
-/// What lies beyond the border begins at the planes through it, upright to the sheet.
+/// The border of a sheet, and where another sheet leaves it over its border: at the planes through the
+/// border, upright to the sheet, as far as the border is what is nearest there.
 class SheetBorder {
 public:
     /// In      surface: that of the sheet, in the same frame. near: positions that are no farther
     ///         apart are one.
     SheetBorder(const Sheet& sheet, const WorldSolid& surface, double near);
 
-    /// What the border means to a triangle of another sheet.
-    struct Division {
-        bool is_near = false;             ///< parts of it may lie beyond the border
-        std::vector<DirectedPiece> lines; ///< where what lies beyond the border begins
+    /// A face of another sheet.
+    struct OtherFace {
+        const Triangle& corners;
+        const Vec3& normal;                     ///< unit
+        std::span<const DirectedPiece> crossed; ///< the lines in which it crosses this sheet
     };
-    /// Looks at what is within `reach` of the border.
+    /// Returns the lines on a face along which it leaves this sheet, up to `reach` from the border.
     ///
-    /// Cost        some tens of searches for a nearest point for each border edge in reach whose plane
-    ///             cuts the triangle.
-    [[nodiscard]] Division division_of(const Triangle& face, const Vec3& normal,
-                                       double reach) const;
-
-    /// Returns whether the nearest point of the sheet is on its border.
-    [[nodiscard]] bool is_beyond(const Vec3& point) const;
+    /// Accuracy    on each plane, the nearest point is asked for at some tens of places. The border
+    ///             may be what is nearest at less than an eighth of a plane's line, and not be found.
+    /// Cost        a search for each place, for each border edge in reach whose plane cuts the face.
+    [[nodiscard]] std::vector<DirectedPiece> ends_on(const OtherFace& face, double reach) const;
 
 private:
+    /// Lines on a face, by the border edge that is nearest there.
+    struct BorderLine {
+        std::uint32_t side = 0;
+        LinePiece line;
+    };
     [[nodiscard]] bool is_nearest(const FaceSide& side, const Vec3& point, double reach) const;
-    void add_lines(const FaceSide& side, const LinePiece& chord, double reach,
-                   std::vector<DirectedPiece>& lines) const;
+    void add_lines(std::uint32_t number, const LinePiece& whole, const OtherFace& face,
+                   double reach, std::vector<BorderLine>& lines) const;
+    void bridge(std::vector<BorderLine>& lines, double reach) const;
+    [[nodiscard]] bool are_neighbours(std::uint32_t i, std::uint32_t j) const;
 
     const WorldSolid& surface_;
     const double near_;

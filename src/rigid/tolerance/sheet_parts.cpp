@@ -20,13 +20,6 @@ BoxIndex index_of_sides(const std::vector<FaceSide>& sides) {
     return BoxIndex(std::move(boxes));
 }
 
-Vec3 middle_of_corners(const std::vector<Vec3>& polygon) {
-    Vec3 sum;
-    for (const Vec3& corner : polygon)
-        sum = sum + (corner - polygon[0]);
-    return polygon[0] + (1.0 / static_cast<double>(polygon.size())) * sum;
-}
-
 ReachBounds as_known(const ReachBounds& bounds) {
     return bounds;
 }
@@ -84,27 +77,16 @@ void SheetParts::cut(std::span<const SheetCrossing> crossings, double border_rea
         const Triangle& t = own_.triangle(i);
         if (own_.normal(i) == Vec3{})
             continue;
-        SheetBorder::Division division = other_.border.division_of(t, own_.normal(i), border_reach);
-        lines_[i].insert(lines_[i].end(), division.lines.begin(), division.lines.end());
+        for (const DirectedPiece& line :
+             other_.border.ends_on({t, own_.normal(i), lines_[i]}, border_reach))
+            lines_[i].push_back(line);
         if (lines_[i].empty())
             pieces_.push_back({i, {t[0], t[1], t[2]}});
         else
             for (auto& polygon : pieces_of_face(t, own_.normal(i), lines_[i], near_))
                 pieces_.push_back({i, std::move(polygon)});
-        for (std::size_t k = first_piece_[i]; k < pieces_.size(); ++k)
-            beyond_.push_back(division.is_near && is_beyond(pieces_[k]));
     }
     first_piece_.push_back(static_cast<std::uint32_t>(pieces_.size()));
-}
-
-/// Returns whether the middle of a piece, and points close to its corners, lie beyond the other sheet's
-/// border.
-bool SheetParts::is_beyond(const Piece& piece) const {
-    const Vec3 middle = middle_of_corners(piece.polygon);
-    return other_.border.is_beyond(middle) &&
-           std::ranges::all_of(piece.polygon, [&](const Vec3& corner) {
-               return other_.border.is_beyond(corner + 0x1p-6 * (middle - corner));
-           });
 }
 
 /// Connects faces without lines at common edges. Returns the sides of all pieces that may be connected
@@ -122,9 +104,8 @@ std::vector<FaceSide> SheetParts::open_sides() {
             const std::uint32_t piece = first_piece_[face.owner];
             if (is_open && lines_[face.owner].empty())
                 sides.push_back({face.line, face.inward, piece});
-            if (is_open || beyond_[piece])
-                continue;
-            sets_.unite(piece, before.value_or(piece));
+            if (!is_open)
+                sets_.unite(piece, before.value_or(piece));
             before = piece;
         }
     });
@@ -153,7 +134,7 @@ void SheetParts::connect_sides(const std::vector<FaceSide>& sides, const BoxInde
         const Vec3 along = normalized_or_zero(line.q - line.p);
         index.for_each_overlap(grown(box_of(line), near_), [&](std::uint32_t j) {
             const std::uint32_t p = sides[i].owner, q = sides[j].owner;
-            if (j <= i || beyond_[p] || beyond_[q] || sets_.root(p) == sets_.root(q))
+            if (j <= i || sets_.root(p) == sets_.root(q))
                 return;
             const auto span = common_span(line, sides[j].line, near_, 2 * near_);
             if (!span)
@@ -200,8 +181,6 @@ void SheetParts::find_sides(std::span<const SheetCrossing> crossings,
         std::vector<Neighbour> neighbours;
         std::vector<double> ends;
         index.for_each_overlap(grown(box_of(line), near_), [&](std::uint32_t i) {
-            if (beyond_[sides[i].owner])
-                return;
             if (const auto span = common_span(line, sides[i].line, near_, 2 * near_)) {
                 if (upward == Vec3{}) // the other face is thin
                     upward = sides[i].inward;

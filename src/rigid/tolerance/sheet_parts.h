@@ -42,7 +42,7 @@ struct OtherSheet {
 /// leaves that one over its border. Bounds how far each part goes from the other sheet.
 ///
 /// Faces are cut along these lines. Pieces are connected where their sides share more than some `near`,
-/// no line runs there, and they do not lie beyond the border. So neither how faces are divided into
+/// no line runs there. So neither how faces are divided into
 /// triangles nor vertices on edges matter.
 class SheetParts {
 public:
@@ -75,7 +75,6 @@ private:
     using Choose = ReachBounds (*)(const ReachBounds&);
 
     void cut(std::span<const SheetCrossing> crossings, double border_reach);
-    [[nodiscard]] bool is_beyond(const Piece& piece) const;
     void connect_sides(const std::vector<FaceSide>& sides, const BoxIndex& index);
     [[nodiscard]] bool goes_on(const FaceSide& side, const Vec3& point) const;
     void find_sides(std::span<const SheetCrossing> crossings, const std::vector<FaceSide>& sides,
@@ -92,7 +91,6 @@ private:
     std::vector<Piece> pieces_;
     std::vector<std::uint32_t> first_piece_;            ///< by face; and the number of pieces
     std::vector<std::vector<DirectedPiece>> lines_;     ///< by face
-    std::vector<bool> beyond_;                          ///< by piece: beyond the other one's border
     DisjointSets sets_{0};                              ///< of pieces
     std::map<std::uint32_t, std::vector<Sides>> sides_; ///< by curve
     std::map<std::uint32_t, std::vector<std::uint32_t>> pieces_of_; ///< by part beside a curve

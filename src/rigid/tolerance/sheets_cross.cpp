@@ -66,6 +66,7 @@ public:
     SheetOverlap overlap() {
         SheetOverlap result;
         double before = 0;
+        ReachBounds known;
         for (double reach = tolerance_; !curves_.empty();) {
             divide(reach);
             const Proof within = within_limit(reach);
@@ -76,10 +77,14 @@ public:
                 narrow(before, reach);
             if (within == Proof::holds || is_last || result.within == Proof::open)
                 break;
+            // Where places on borders were missed, the next depth may be less than what is known.
             before = reach;
+            known = reach_by(&SheetParts::reach_beyond);
             reach *= kStep;
         }
-        const ReachBounds bounds = parts_[0] ? reach_by(&SheetParts::reach_beyond) : ReachBounds{};
+        ReachBounds bounds = parts_[0] ? reach_by(&SheetParts::reach_beyond) : ReachBounds{};
+        if (bounds.low <= before)
+            bounds = known;
         if (bounds.low > options_.rounding)
             result.depth = bounds.low, result.point = origin_ + bounds.point,
             result.of_b = bounds.of_second;
