@@ -1,10 +1,10 @@
 #include "rigid/tolerance/sheet.h"
 
-#include "rigid/tolerance/box_index.h"
 #include "rigid/tolerance/point_order.h"
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace abut {
 
@@ -34,54 +34,88 @@ Sheet::Sheet(const WorldSolid& surface, const Vec3& origin, double thin) {
     });
     std::sort(numbered.begin(), numbered.end(),
               [](const auto& s, const auto& t) { return s.first < t.first; });
-    std::vector<Vec3> positions;
     for (const auto& [number, t] : numbered) {
         triangles_.push_back(t);
         normals_.push_back(normal_unless_thin(t, thin));
-        positions.insert(positions.end(), t.begin(), t.end());
     }
-    std::sort(positions.begin(), positions.end(), is_before);
+    connect();
+}
+
+/// The edges of all triangles that are not thin, sorted by their vertices.
+std::vector<Sheet::EdgeOfTriangle> Sheet::edges() const {
+    std::vector<Vec3> positions;
+    for (const Triangle& t : triangles_)
+        positions.insert(positions.end(), t.begin(), t.end());
+    std::sort(positions.begin(), positions.end(),
+              [](const Vec3& p, const Vec3& q) { return is_before(p, q); });
     positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
+    std::vector<EdgeOfTriangle> edges;
     for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
         if (normals_[i] == Vec3{})
             continue;
         std::array<std::uint32_t, 3> corners{};
         for (std::size_t k = 0; k < 3; ++k)
             corners[k] = static_cast<std::uint32_t>(
-                std::lower_bound(positions.begin(), positions.end(), triangles_[i][k], is_before) -
+                std::lower_bound(positions.begin(), positions.end(), triangles_[i][k],
+                                 [](const Vec3& p, const Vec3& q) { return is_before(p, q); }) -
                 positions.begin());
         for (std::uint32_t k = 0; k < 3; ++k)
-            edges_.push_back({std::minmax(corners[k], corners[(k + 1) % 3]), i, k});
+            edges.push_back({std::minmax(corners[k], corners[(k + 1) % 3]), i, k});
     }
-    std::stable_sort(edges_.begin(), edges_.end(),
-                     [](const auto& e, const auto& f) { return e.vertices < f.vertices; });
+    std::sort(edges.begin(), edges.end(), [](const auto& e, const auto& f) {
+        return std::tie(e.vertices, e.triangle) < std::tie(f.vertices, f.triangle);
+    });
+    return edges;
 }
 
-FaceSide Sheet::side(std::uint32_t triangle, std::uint32_t corner) const {
-    const Triangle& t = triangles_[triangle];
-    const LinePiece line{t[corner], t[(corner + 1) % 3]};
-    return {line, left_of(line, normals_[triangle]), triangle};
+FaceSide Sheet::side(const EdgeOfTriangle& edge) const {
+    const Triangle& t = triangles_[edge.triangle];
+    const LinePiece line{t[edge.corner], t[(edge.corner + 1) % 3]};
+    return {line, left_of(line, normals_[edge.triangle]), edge.triangle};
+}
+
+/// Finds the neighbours of all triangles, and the loose sides.
+void Sheet::connect() {
+    const std::vector<EdgeOfTriangle> edges = this->edges();
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    for (std::size_t first = 0, last = 0; first < edges.size(); first = last) {
+        bool is_loose = true;
+        const Vec3 inward = side(edges[first]).inward;
+        for (last = first; last < edges.size() && edges[last].vertices == edges[first].vertices;
+             ++last)
+            is_loose = is_loose && same_side(side(edges[last]).inward, inward);
+        for (std::size_t i = first; i < last; ++i) {
+            if (is_loose)
+                loose_.push_back(side(edges[i]));
+            if (i > first) { // each with the one before is enough to connect all
+                pairs.emplace_back(edges[i].triangle, edges[i - 1].triangle);
+                pairs.emplace_back(edges[i - 1].triangle, edges[i].triangle);
+            }
+        }
+    }
+    std::sort(pairs.begin(), pairs.end());
+    first_neighbour_.assign(triangles_.size() + 1, 0);
+    for (const auto& [triangle, neighbour] : pairs) {
+        ++first_neighbour_[triangle + 1];
+        neighbours_.push_back(neighbour);
+    }
+    for (std::size_t i = 1; i < first_neighbour_.size(); ++i)
+        first_neighbour_[i] += first_neighbour_[i - 1];
+    std::vector<Box3> boxes;
+    for (const FaceSide& loose : loose_)
+        boxes.push_back(box_of(loose.line));
+    loose_index_ = BoxIndex(std::move(boxes));
 }
 
 std::vector<FaceSide> border_of(const Sheet& sheet, double near) {
-    std::vector<FaceSide> ends;
-    sheet.for_each_edge([&](std::span<const FaceSide> sides) {
-        if (std::ranges::all_of(sides, [&](const FaceSide& side) {
-                return same_side(side.inward, sides[0].inward);
-            }))
-            ends.push_back(sides[0]);
-    });
-    std::vector<Box3> boxes;
-    for (const FaceSide& side : ends)
-        boxes.push_back(box_of(side.line));
-    const BoxIndex index(std::move(boxes));
     std::vector<FaceSide> border;
-    for (const FaceSide& side : ends) {
+    for (const FaceSide& side : sheet.loose_sides()) {
         std::vector<LineSpan> covers;
-        index.for_each_overlap(grown(box_of(side.line), near), [&](std::uint32_t i) {
-            if (same_side(ends[i].inward, side.inward))
+        sheet.for_each_loose(grown(box_of(side.line), near), [&](std::uint32_t i) {
+            const FaceSide& other = sheet.loose_sides()[i];
+            if (same_side(other.inward, side.inward))
                 return;
-            if (const auto span = common_span(side.line, ends[i].line, near, 2 * near))
+            if (const auto span = common_span(side.line, other.line, near, 2 * near))
                 covers.push_back(*span);
         });
         const Vec3 along = normalized_or_zero(side.line.q - side.line.p);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "rigid/solid/world_solid.h"
+#include "rigid/tolerance/box_index.h"
 #include "rigid/tolerance/line_piece.h"
 
 #include <array>
@@ -32,17 +33,18 @@ public:
     /// The unit normal of a triangle; zero if it is thin.
     [[nodiscard]] const Vec3& normal(std::uint32_t i) const { return normals_[i]; }
 
-    /// Calls visit(sides) for each edge, with the sides of all triangles there that are not thin.
+    /// The triangles that share an edge with one; itself and thin ones are not among them.
+    [[nodiscard]] std::span<const std::uint32_t> neighbours(std::uint32_t i) const {
+        return std::span(neighbours_)
+            .subspan(first_neighbour_[i], first_neighbour_[i + 1] - first_neighbour_[i]);
+    }
+    /// The sides of triangles at edges where all triangles extend to one side. There the sheet ends, or
+    /// goes on at the edge of a triangle with other vertices.
+    [[nodiscard]] const std::vector<FaceSide>& loose_sides() const { return loose_; }
+    /// Calls visit(number of a loose side) for those whose boxes meet a box.
     template <typename Visit>
-    void for_each_edge(const Visit& visit) const {
-        for (std::size_t first = 0, last = 0; first < edges_.size(); first = last) {
-            while (last < edges_.size() && edges_[last].vertices == edges_[first].vertices)
-                ++last;
-            std::vector<FaceSide> sides;
-            for (std::size_t i = first; i < last; ++i)
-                sides.push_back(side(edges_[i].triangle, edges_[i].corner));
-            visit(std::span<const FaceSide>(sides));
-        }
+    void for_each_loose(const Box3& box, const Visit& visit) const {
+        loose_index_.for_each_overlap(box, visit);
     }
 
 private:
@@ -50,11 +52,15 @@ private:
         std::pair<std::uint32_t, std::uint32_t> vertices; ///< the lower number first
         std::uint32_t triangle = 0, corner = 0;           ///< the edge's first corner
     };
-    [[nodiscard]] FaceSide side(std::uint32_t triangle, std::uint32_t corner) const;
+    [[nodiscard]] std::vector<EdgeOfTriangle> edges() const;
+    [[nodiscard]] FaceSide side(const EdgeOfTriangle& edge) const;
+    void connect();
 
     std::vector<Triangle> triangles_; ///< by number in the whole mesh
     std::vector<Vec3> normals_;
-    std::vector<EdgeOfTriangle> edges_; ///< sorted by their vertices
+    std::vector<std::uint32_t> neighbours_, first_neighbour_; ///< by triangle
+    std::vector<FaceSide> loose_;
+    BoxIndex loose_index_{{}};
 };
 
 /// The unit vector in a face with a normal, square to a line in it, that points to the left of the

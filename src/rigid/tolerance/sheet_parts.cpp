@@ -1,5 +1,6 @@
 #include "rigid/tolerance/sheet_parts.h"
 
+#include "core/stop.h"
 #include "rigid/tolerance/face_cutter.h"
 
 #include <algorithm>
@@ -12,13 +13,6 @@ namespace abut {
 namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-
-BoxIndex index_of_sides(const std::vector<FaceSide>& sides) {
-    std::vector<Box3> boxes;
-    for (const FaceSide& side : sides)
-        boxes.push_back(box_of(side.line));
-    return BoxIndex(std::move(boxes));
-}
 
 ReachBounds as_known(const ReachBounds& bounds) {
     return bounds;
@@ -36,6 +30,15 @@ void sort_unique(std::vector<std::uint32_t>& numbers) {
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
+std::vector<Box3> boxes_of_crossings(std::span<const SheetCrossing> crossings) {
+    std::vector<Box3> boxes;
+    for (const SheetCrossing& c : crossings)
+        boxes.push_back(box_of(c.line.piece));
+    return boxes;
+}
+
+constexpr std::uint32_t kNone = 0xffffffff;
+
 } // namespace
 
 ReachBounds lesser(const ReachBounds& a, const ReachBounds& b) {
@@ -50,113 +53,114 @@ ReachBounds greater(const ReachBounds& a, const ReachBounds& b) {
 SheetParts::SheetParts(const Sheet& own, const OtherSheet& other,
                        std::span<const SheetCrossing> crossings, double border_reach, double near,
                        ReachSearch::Options options)
-    : own_(own), other_(other), near_(near), options_(std::move(options)) {
-    cut(crossings, border_reach);
-    sets_ = DisjointSets(pieces_.size());
-    const std::vector<FaceSide> sides = open_sides();
-    const BoxIndex index = index_of_sides(sides);
-    connect_sides(sides, index);
-    find_sides(crossings, sides, index);
-    for (const auto& [curve, found] : sides_)
-        for (const Sides& s : found)
-            for (const auto* parts : {&s.over, &s.under})
-                for (const std::uint32_t part : *parts)
-                    pieces_of_[part] = {}, reach_[part] = {0, kUnbounded, {}};
-    for (std::uint32_t i = 0; i < pieces_.size(); ++i)
-        if (const auto at = pieces_of_.find(sets_.root(i)); at != pieces_of_.end())
-            at->second.push_back(i);
-}
-
-/// Cuts all faces along their lines.
-void SheetParts::cut(std::span<const SheetCrossing> crossings, double border_reach) {
-    lines_.resize(own_.triangles());
+    : own_(own), other_(other), border_reach_(border_reach), near_(near),
+      options_(std::move(options)), crossings_(crossings), index_(boxes_of_crossings(crossings)),
+      faces_(own.triangles()) {
     for (const SheetCrossing& c : crossings)
-        lines_[c.own].push_back(c.line);
-    for (std::uint32_t i = 0; i < own_.triangles(); ++i) {
-        first_piece_.push_back(static_cast<std::uint32_t>(pieces_.size()));
-        const Triangle& t = own_.triangle(i);
-        if (own_.normal(i) == Vec3{})
-            continue;
-        for (const DirectedPiece& line :
-             other_.border.ends_on({t, own_.normal(i), lines_[i]}, border_reach))
-            lines_[i].push_back(line);
-        if (lines_[i].empty())
-            pieces_.push_back({i, {t[0], t[1], t[2]}});
-        else
-            for (auto& polygon : pieces_of_face(t, own_.normal(i), lines_[i], near_))
-                pieces_.push_back({i, std::move(polygon)});
+        faces_[c.own].lines.push_back(c.line);
+    for (const SheetCrossing& c : crossings)
+        find_sides(c);
+    for (auto& [curve, found] : sides_) {
+        std::sort(found.begin(), found.end());
+        found.erase(std::unique(found.begin(), found.end()), found.end());
     }
-    first_piece_.push_back(static_cast<std::uint32_t>(pieces_.size()));
 }
 
-/// Connects faces without lines at common edges. Returns the sides of all pieces that may be connected
-/// elsewhere.
-std::vector<FaceSide> SheetParts::open_sides() {
+/// Cuts a face along its lines, unless that is done.
+const SheetParts::Face& SheetParts::cut(std::uint32_t number) {
+    Face& face = faces_[number];
+    const Vec3& normal = own_.normal(number);
+    if (face.is_cut)
+        return face;
+    face.is_cut = true;
+    face.first = static_cast<std::uint32_t>(pieces_.size());
+    const Triangle& t = own_.triangle(number);
+    if (normal != Vec3{}) {
+        for (const DirectedPiece& line :
+             other_.border.ends_on({t, normal, face.lines}, border_reach_))
+            face.lines.push_back(line);
+        if (face.lines.empty())
+            pieces_.push_back({number, {t[0], t[1], t[2]}, kNone});
+        else
+            for (auto& polygon : pieces_of_face(t, normal, face.lines, near_))
+                pieces_.push_back({number, std::move(polygon), kNone});
+    }
+    face.last = static_cast<std::uint32_t>(pieces_.size());
+    return face;
+}
+
+std::vector<FaceSide> SheetParts::sides_of(std::uint32_t piece) const {
+    const auto& [face, polygon, part] = pieces_[piece];
     std::vector<FaceSide> sides;
-    own_.for_each_edge([&](std::span<const FaceSide> faces) {
-        bool is_open = true;
-        for (const FaceSide& face : faces)
-            is_open = is_open && same_side(face.inward, faces[0].inward);
-        for (const FaceSide& face : faces)
-            is_open = is_open || !lines_[face.owner].empty();
-        std::optional<std::uint32_t> before;
-        for (const FaceSide& face : faces) {
-            const std::uint32_t piece = first_piece_[face.owner];
-            if (is_open && lines_[face.owner].empty())
-                sides.push_back({face.line, face.inward, piece});
-            if (!is_open)
-                sets_.unite(piece, before.value_or(piece));
-            before = piece;
-        }
-    });
-    for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
-        const auto& [face, polygon] = pieces_[i];
-        if (lines_[face].empty())
-            continue;
-        for (std::size_t k = 0; k < polygon.size(); ++k) {
-            const LinePiece line{polygon[k], polygon[(k + 1) % polygon.size()]};
-            sides.push_back({line, left_of(line, own_.normal(face)), i});
-        }
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const LinePiece line{polygon[k], polygon[(k + 1) % polygon.size()]};
+        sides.push_back({line, left_of(line, own_.normal(face)), piece});
     }
     return sides;
 }
 
-/// Connects pieces whose sides share more than `near` where no line runs.
-void SheetParts::connect_sides(const std::vector<FaceSide>& sides, const BoxIndex& index) {
-    std::vector<LinePiece> lines;
-    std::vector<Box3> boxes;
-    for (const auto& of_face : lines_)
-        for (const DirectedPiece& line : of_face)
-            lines.push_back(line.piece), boxes.push_back(box_of(line.piece));
-    const BoxIndex index_of_lines(std::move(boxes));
-    for (std::uint32_t i = 0; i < sides.size(); ++i) {
-        const LinePiece& line = sides[i].line;
-        const Vec3 along = normalized_or_zero(line.q - line.p);
-        index.for_each_overlap(grown(box_of(line), near_), [&](std::uint32_t j) {
-            const std::uint32_t p = sides[i].owner, q = sides[j].owner;
-            if (j <= i || sets_.root(p) == sets_.root(q))
-                return;
-            const auto span = common_span(line, sides[j].line, near_, 2 * near_);
+/// Calls visit(face) for a face, for those that share an edge with it, and for those with a loose edge in
+/// a box.
+template <typename Visit>
+void SheetParts::for_each_face_at(std::uint32_t face, const Box3& box, const Visit& visit) {
+    visit(face);
+    for (const std::uint32_t neighbour : own_.neighbours(face))
+        visit(neighbour);
+    own_.for_each_loose(box, [&](std::uint32_t i) { visit(own_.loose_sides()[i].owner); });
+}
+
+/// The parts of a line near a face that lines of the face or of faces around it cover.
+std::vector<LineSpan> SheetParts::covers_of(const LinePiece& common, std::uint32_t number) {
+    // A line that is near a side is within this of all sides that are near that one.
+    const double near = 3 * near_;
+    const Box3 box = grown(box_of(common), near);
+    std::vector<LineSpan> covers;
+    const auto add = [&](const LinePiece& line) {
+        if (overlap(box, box_of(line)))
+            if (const auto cover = common_span(common, line, near, 0))
+                covers.push_back({cover->from - near_, cover->to + near_});
+    };
+    index_.for_each_overlap(box, [&](std::uint32_t i) { add(crossings_[i].line.piece); });
+    const auto add_ends = [&](std::uint32_t face) {
+        for (const DirectedPiece& line : cut(face).lines)
+            add(line.piece);
+    };
+    add_ends(number);
+    for (const std::uint32_t neighbour : own_.neighbours(number))
+        add_ends(neighbour);
+    return covers;
+}
+
+/// Returns whether two pieces share more than `near` of a side where no line runs.
+bool SheetParts::are_joined(std::uint32_t p, std::uint32_t q) {
+    const std::uint32_t of_p = pieces_[p].face, of_q = pieces_[q].face;
+    const std::vector<FaceSide> others = sides_of(q);
+    for (const FaceSide& side : sides_of(p)) {
+        const Vec3 along = normalized_or_zero(side.line.q - side.line.p);
+        const Box3 box = grown(box_of(side.line), near_);
+        for (const FaceSide& other : others) {
+            if (!overlap(box, box_of(other.line)))
+                continue;
+            const auto span = common_span(side.line, other.line, near_, 2 * near_);
             if (!span)
-                return;
-            const LinePiece common{line.p + span->from * along, line.p + span->to * along};
-            std::vector<LineSpan> covers;
-            // A line that is near a side is within this of all sides that are near that one.
-            const double near = 3 * near_;
-            index_of_lines.for_each_overlap(grown(box_of(common), near), [&](std::uint32_t k) {
-                if (const auto cover = common_span(common, lines[k], near, 0))
-                    covers.push_back({cover->from - near_, cover->to + near_});
-            });
+                continue;
+            const LinePiece common{side.line.p + span->from * along,
+                                   side.line.p + span->to * along};
+            std::vector<LineSpan> covers = covers_of(common, of_p);
+            if (of_q != of_p)
+                for (const LineSpan& cover : covers_of(common, of_q))
+                    covers.push_back(cover);
             if (!uncovered({0, span->to - span->from}, covers, near_).empty())
-                sets_.unite(p, q);
-        });
+                return true;
+        }
     }
+    return false;
 }
 
 /// Returns whether the piece at a side is thicker than `near` at a point close to the side. If not, and it
 /// narrows there, its other sides are as close.
 bool SheetParts::goes_on(const FaceSide& side, const Vec3& point) const {
-    const auto& [face, polygon] = pieces_[side.owner];
+    const auto& [face, polygon, part] = pieces_[side.owner];
     const Vec3 inside = point + 1.5 * near_ * side.inward;
     for (std::size_t k = 0; k < polygon.size(); ++k) {
         const LinePiece line{polygon[k], polygon[(k + 1) % polygon.size()]};
@@ -166,78 +170,168 @@ bool SheetParts::goes_on(const FaceSide& side, const Vec3& point) const {
     return true;
 }
 
-/// Finds the parts on both sides of each crossing.
-void SheetParts::find_sides(std::span<const SheetCrossing> crossings,
-                            const std::vector<FaceSide>& sides, const BoxIndex& index) {
+/// The faces that may have a side along a crossing.
+std::vector<std::uint32_t> SheetParts::faces_along(const SheetCrossing& crossing) {
+    const Box3 box = grown(box_of(crossing.line.piece), near_);
+    std::vector<std::uint32_t> faces;
+    const auto add = [&](std::uint32_t face) { faces.push_back(face); };
+    if (own_.normal(crossing.own) != Vec3{})
+        for_each_face_at(crossing.own, box, add);
+    else // a thin face has no neighbours
+        for (std::uint32_t i = 0; i < own_.triangles(); ++i) {
+            const Triangle& t = own_.triangle(i);
+            if (overlap(box, {min(t[0], min(t[1], t[2])), max(t[0], max(t[1], t[2]))}))
+                add(i);
+        }
+    sort_unique(faces);
+    return faces;
+}
+
+/// Finds the pieces on both sides of a crossing.
+void SheetParts::find_sides(const SheetCrossing& crossing) {
     struct Neighbour {
         LineSpan span;
-        std::uint32_t side;
+        FaceSide side;
         bool is_over;
     };
-    for (const SheetCrossing& c : crossings) {
-        const LinePiece& line = c.line.piece;
-        const Vec3 along = normalized_or_zero(line.q - line.p);
-        Vec3 upward = other_.sheet.normal(c.other);
-        std::vector<Neighbour> neighbours;
-        std::vector<double> ends;
-        index.for_each_overlap(grown(box_of(line), near_), [&](std::uint32_t i) {
-            if (const auto span = common_span(line, sides[i].line, near_, 2 * near_)) {
-                if (upward == Vec3{}) // the other face is thin
-                    upward = sides[i].inward;
-                neighbours.push_back({*span, i, dot(sides[i].inward, upward) > 0});
-                ends.push_back(span->from);
-                ends.push_back(span->to);
-            }
-        });
-        std::sort(ends.begin(), ends.end());
-        for (std::size_t i = 1; i < ends.size(); ++i) {
-            if (ends[i] - ends[i - 1] <= 2 * near_)
-                continue;
-            const double at = 0.5 * (ends[i] + ends[i - 1]);
-            Sides found;
-            const Vec3 middle = line.p + at * along;
-            for (const Neighbour& n : neighbours)
-                if (n.span.from < at && at < n.span.to && goes_on(sides[n.side], middle))
-                    (n.is_over ? found.over : found.under)
-                        .push_back(sets_.root(sides[n.side].owner));
-            sort_unique(found.over);
-            sort_unique(found.under);
-            if (!found.over.empty() && !found.under.empty())
-                sides_[c.curve].push_back(std::move(found));
-        }
+    const LinePiece& line = crossing.line.piece;
+    const Vec3 along = normalized_or_zero(line.q - line.p);
+    Vec3 upward = other_.sheet.normal(crossing.other);
+    std::vector<Neighbour> neighbours;
+    std::vector<double> ends;
+    for (const std::uint32_t number : faces_along(crossing)) {
+        const Face face = cut(number);
+        for (std::uint32_t piece = face.first; piece < face.last; ++piece)
+            for (const FaceSide& side : sides_of(piece))
+                if (const auto span = common_span(line, side.line, near_, 2 * near_)) {
+                    if (upward == Vec3{}) // the other face is thin
+                        upward = side.inward;
+                    neighbours.push_back({*span, side, dot(side.inward, upward) > 0});
+                    ends.push_back(span->from);
+                    ends.push_back(span->to);
+                }
     }
-    for (auto& [curve, found] : sides_) {
-        std::sort(found.begin(), found.end());
-        found.erase(std::unique(found.begin(), found.end()), found.end());
+    std::sort(ends.begin(), ends.end());
+    for (std::size_t i = 1; i < ends.size(); ++i) {
+        if (ends[i] - ends[i - 1] <= 2 * near_)
+            continue;
+        const double at = 0.5 * (ends[i] + ends[i - 1]);
+        Sides found;
+        const Vec3 middle = line.p + at * along;
+        for (const Neighbour& n : neighbours)
+            if (n.span.from < at && at < n.span.to && goes_on(n.side, middle))
+                (n.is_over ? found.over : found.under).push_back(n.side.owner);
+        sort_unique(found.over);
+        sort_unique(found.under);
+        if (!found.over.empty() && !found.under.empty())
+            sides_[crossing.curve].push_back(std::move(found));
+    }
+}
+
+/// The part of a piece; a new one if it is not reached yet.
+std::uint32_t SheetParts::part_of(std::uint32_t piece) {
+    if (pieces_[piece].part == kNone) {
+        const auto part = static_cast<std::uint32_t>(parts_.size());
+        united_.push_back(part);
+        parts_.push_back({{0, kUnbounded, {}}, {}, {}});
+        reach(piece, part);
+    }
+    std::uint32_t part = pieces_[piece].part;
+    while (united_[part] != part)
+        part = united_[part] = united_[united_[part]];
+    return part;
+}
+
+/// Adds a piece to a part.
+void SheetParts::reach(std::uint32_t piece, std::uint32_t number) {
+    Part& part = parts_[number];
+    pieces_[piece].part = number;
+    double farthest = 0;
+    for (const Vec3& corner : pieces_[piece].polygon) {
+        const double distance =
+            other_.surface.nearest(corner, WorldSolid::NearestSearch{}).distance;
+        farthest = std::max(farthest, distance);
+        if (distance > part.reach.low)
+            part.reach.low = distance, part.reach.point = corner;
+    }
+    part.pieces.push_back(piece);
+    part.edge.emplace(farthest, piece);
+}
+
+void SheetParts::unite(std::uint32_t number, std::uint32_t other_number) {
+    if (number == other_number)
+        return;
+    Part &part = parts_[number], &other = parts_[other_number];
+    united_[other_number] = number;
+    part.reach = greater(part.reach, other.reach);
+    part.reach.high = kUnbounded;
+    part.pieces.insert(part.pieces.end(), other.pieces.begin(), other.pieces.end());
+    for (; !other.edge.empty(); other.edge.pop())
+        part.edge.push(other.edge.top());
+    other.pieces.clear();
+}
+
+/// Walks a part until a corner is farther than a limit.
+void SheetParts::walk(std::uint32_t number, double limit) {
+    while (parts_[number].reach.low <= limit && !parts_[number].edge.empty()) {
+        poll_stop();
+        const std::uint32_t piece = parts_[number].edge.top().second;
+        parts_[number].edge.pop();
+        Box3 box;
+        for (const Vec3& corner : pieces_[piece].polygon)
+            extend(box, corner);
+        std::vector<std::uint32_t> faces;
+        for_each_face_at(pieces_[piece].face, grown(box, near_),
+                         [&](std::uint32_t face) { faces.push_back(face); });
+        sort_unique(faces);
+        for (const std::uint32_t face : faces) {
+            const auto [first, last] = std::pair(cut(face).first, cut(face).last);
+            for (std::uint32_t next = first; next < last; ++next) {
+                const bool is_known = pieces_[next].part != kNone;
+                if (next == piece || (is_known && part_of(next) == number) ||
+                    !are_joined(piece, next))
+                    continue;
+                if (is_known)
+                    unite(number, part_of(next));
+                else
+                    reach(next, number);
+            }
+        }
     }
 }
 
 Proof SheetParts::ends_within(std::uint32_t curve, double limit) {
     Proof all = Proof::holds;
     for (const auto& [over, under] : sides_[curve]) {
-        const Proof first = is_within(over, limit);
+        const Proof first = are_within(over, limit);
         all = both_hold(all, first == Proof::holds ? first
-                                                   : either_holds(first, is_within(under, limit)));
+                                                   : either_holds(first, are_within(under, limit)));
+        if (all == Proof::fails)
+            break;
     }
     return all;
 }
 
-Proof SheetParts::is_within(const std::vector<std::uint32_t>& parts, double limit) {
+Proof SheetParts::are_within(const std::vector<std::uint32_t>& pieces, double limit) {
     Proof all = Proof::holds;
-    for (const std::uint32_t part : parts)
-        all = both_hold(all, examine(part, limit));
+    for (const std::uint32_t piece : pieces)
+        all = both_hold(all, examine(piece, limit));
     return all;
 }
 
-/// Decides whether a part is within a limit, unless that is known.
-Proof SheetParts::examine(std::uint32_t part, double limit) {
-    ReachBounds& known = reach_[part];
-    if (known.high <= limit || known.low > limit)
-        return known.high <= limit ? Proof::holds : Proof::fails;
+/// Decides whether the part of a piece is within a limit, unless that is known.
+Proof SheetParts::examine(std::uint32_t piece, double limit) {
+    const std::uint32_t number = part_of(piece);
+    ReachBounds& known = parts_[number].reach;
+    if (known.high <= limit)
+        return Proof::holds;
+    walk(number, limit + options_.rounding);
+    if (known.low > limit + options_.rounding)
+        return Proof::fails;
     ReachSearch::Options options = options_;
     options.limit = limit;
     ReachSearch search(other_.surface, options);
-    for (const std::uint32_t i : pieces_of_[part]) {
+    for (const std::uint32_t i : parts_[number].pieces) {
         const std::vector<Vec3>& polygon = pieces_[i].polygon;
         for (std::size_t k = 2; k < polygon.size() && search.proof() == Proof::holds; ++k)
             search.add({polygon[0], polygon[k - 1], polygon[k]});
@@ -253,40 +347,24 @@ Proof SheetParts::examine(std::uint32_t part, double limit) {
     return Proof::fails;
 }
 
-ReachBounds SheetParts::reach_of(std::uint32_t curve, Choose choose) const {
+ReachBounds SheetParts::reach_of(std::uint32_t curve, Choose choose) {
     ReachBounds most;
-    const auto at = sides_.find(curve);
-    if (at == sides_.end())
-        return most;
-    const auto of_parts = [&](const std::vector<std::uint32_t>& parts) {
+    const auto of_pieces = [&](const std::vector<std::uint32_t>& pieces) {
         ReachBounds bounds;
-        for (const std::uint32_t part : parts)
-            bounds = greater(bounds, choose(reach_.at(part)));
+        for (const std::uint32_t piece : pieces)
+            bounds = greater(bounds, choose(parts_[part_of(piece)].reach));
         return bounds;
     };
-    for (const auto& [over, under] : at->second)
-        most = greater(most, lesser(of_parts(over), of_parts(under)));
+    for (const auto& [over, under] : sides_[curve])
+        most = greater(most, lesser(of_pieces(over), of_pieces(under)));
     return most;
 }
 
-ReachBounds SheetParts::reach_beyond(std::uint32_t curve) const {
+ReachBounds SheetParts::reach_beyond(std::uint32_t curve) {
     return reach_of(curve, as_known);
 }
-ReachBounds SheetParts::likely_reach(std::uint32_t curve) const {
+ReachBounds SheetParts::likely_reach(std::uint32_t curve) {
     return reach_of(curve, as_likely);
-}
-
-void SheetParts::look_at_corners() {
-    for (auto& [part, bounds] : reach_) {
-        if (bounds.high == kUnbounded || !looked_at_.insert(part).second)
-            continue;
-        for (const std::uint32_t i : pieces_of_[part])
-            for (const Vec3& corner : pieces_[i].polygon)
-                if (const double distance =
-                        other_.surface.nearest(corner, WorldSolid::NearestSearch{}).distance;
-                    distance > bounds.low)
-                    bounds.low = distance, bounds.point = corner;
-    }
 }
 
 } // namespace abut

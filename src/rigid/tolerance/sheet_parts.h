@@ -1,13 +1,12 @@
 #pragma once
 
-#include "core/disjoint_sets.h"
 #include "rigid/tolerance/reach_search.h"
 #include "rigid/tolerance/sheet.h"
 #include "rigid/tolerance/sheet_border.h"
 
 #include <cstdint>
 #include <map>
-#include <set>
+#include <queue>
 #include <span>
 #include <vector>
 
@@ -27,7 +26,7 @@ struct ReachBounds {
     Vec3 point;
     bool of_second = false; ///< whether the point is on the second of two sheets
 };
-/// The bounds of the lesser and of the greater of two distances.
+/// What is known of the lesser and of the greater of two distances.
 ReachBounds lesser(const ReachBounds& a, const ReachBounds& b);
 ReachBounds greater(const ReachBounds& a, const ReachBounds& b);
 
@@ -42,11 +41,11 @@ struct OtherSheet {
 /// leaves that one over its border. Bounds how far each part goes from the other sheet.
 ///
 /// Faces are cut along these lines. Pieces are connected where their sides share more than some `near`,
-/// no line runs there. So neither how faces are divided into
-/// triangles nor vertices on edges matter.
+/// and no line runs there. So neither how faces are divided into triangles nor vertices on edges matter.
+/// A part is walked from the lines outward, the farthest piece first, only as far as a question needs.
 class SheetParts {
 public:
-    /// In      border_reach: the other sheet's border matters as far from it as that. options: of the
+    /// In      own, other, crossings: must outlive the parts. border_reach: the other sheet's border matters as far from it as that. options: of the
     ///         searches; their limit is not used.
     SheetParts(const Sheet& own, const OtherSheet& other, std::span<const SheetCrossing> crossings,
                double border_reach, double near, ReachSearch::Options options);
@@ -55,47 +54,63 @@ public:
     /// one.
     Proof ends_within(std::uint32_t curve, double limit);
     /// How far it goes on the side on which it goes less far: the greatest along the curve.
-    [[nodiscard]] ReachBounds reach_beyond(std::uint32_t curve) const;
-
-    /// Looks at the corners of all parts whose reach is bounded from above.
-    void look_at_corners();
+    [[nodiscard]] ReachBounds reach_beyond(std::uint32_t curve);
     /// As reach_beyond(), but parts without an upper bound reach infinitely far.
-    [[nodiscard]] ReachBounds likely_reach(std::uint32_t curve) const;
+    [[nodiscard]] ReachBounds likely_reach(std::uint32_t curve);
 
 private:
     struct Piece {
         std::uint32_t face = 0;
         std::vector<Vec3> polygon;
+        std::uint32_t part = 0; ///< if it is reached; else kNone
     };
-    /// The parts on both sides of a line of a curve.
+    struct Face {
+        bool is_cut = false;
+        std::vector<DirectedPiece> lines;
+        std::uint32_t first = 0, last = 0; ///< pieces
+    };
+    /// A part, as far as it is walked.
+    struct Part {
+        ReachBounds reach;
+        std::vector<std::uint32_t> pieces;
+        std::priority_queue<std::pair<double, std::uint32_t>> edge; ///< farthest first
+    };
+    /// The pieces on both sides of a line of a curve.
     struct Sides {
         std::vector<std::uint32_t> over, under;
         friend auto operator<=>(const Sides&, const Sides&) = default;
     };
     using Choose = ReachBounds (*)(const ReachBounds&);
 
-    void cut(std::span<const SheetCrossing> crossings, double border_reach);
-    void connect_sides(const std::vector<FaceSide>& sides, const BoxIndex& index);
+    const Face& cut(std::uint32_t face);
+    [[nodiscard]] std::vector<FaceSide> sides_of(std::uint32_t piece) const;
+    template <typename Visit>
+    void for_each_face_at(std::uint32_t face, const Box3& box, const Visit& visit);
+    [[nodiscard]] std::vector<LineSpan> covers_of(const LinePiece& common, std::uint32_t face);
+    [[nodiscard]] bool are_joined(std::uint32_t p, std::uint32_t q);
     [[nodiscard]] bool goes_on(const FaceSide& side, const Vec3& point) const;
-    void find_sides(std::span<const SheetCrossing> crossings, const std::vector<FaceSide>& sides,
-                    const BoxIndex& index);
-    std::vector<FaceSide> open_sides();
-    [[nodiscard]] Proof is_within(const std::vector<std::uint32_t>& parts, double limit);
-    Proof examine(std::uint32_t part, double limit);
-    [[nodiscard]] ReachBounds reach_of(std::uint32_t curve, Choose choose) const;
+    void find_sides(const SheetCrossing& crossing);
+    [[nodiscard]] std::vector<std::uint32_t> faces_along(const SheetCrossing& crossing);
+
+    std::uint32_t part_of(std::uint32_t piece);
+    void reach(std::uint32_t piece, std::uint32_t part);
+    void unite(std::uint32_t part, std::uint32_t other);
+    void walk(std::uint32_t part, double limit);
+    [[nodiscard]] Proof are_within(const std::vector<std::uint32_t>& pieces, double limit);
+    Proof examine(std::uint32_t piece, double limit);
+    [[nodiscard]] ReachBounds reach_of(std::uint32_t curve, Choose choose);
 
     const Sheet& own_;
     const OtherSheet other_;
-    const double near_;
+    const double border_reach_, near_;
     const ReachSearch::Options options_;
+    const std::span<const SheetCrossing> crossings_;
+    const BoxIndex index_; ///< of the crossings
+    std::vector<Face> faces_;
     std::vector<Piece> pieces_;
-    std::vector<std::uint32_t> first_piece_;            ///< by face; and the number of pieces
-    std::vector<std::vector<DirectedPiece>> lines_;     ///< by face
-    DisjointSets sets_{0};                              ///< of pieces
     std::map<std::uint32_t, std::vector<Sides>> sides_; ///< by curve
-    std::map<std::uint32_t, std::vector<std::uint32_t>> pieces_of_; ///< by part beside a curve
-    std::map<std::uint32_t, ReachBounds> reach_;                    ///< by part beside a curve
-    std::set<std::uint32_t> looked_at_;                             ///< parts: at their corners
+    std::vector<Part> parts_;
+    std::vector<std::uint32_t> united_; ///< by part: the part it belongs to, or itself
 };
 
 } // namespace abut

@@ -1,5 +1,6 @@
 #include "rigid/tolerance/sheets_cross.h"
 
+#include "core/disjoint_sets.h"
 #include "geometry/triangle_triangle_intersect.h"
 #include "geometry/triangle_triangle_segment.h"
 #include "rigid/penetration/local_penetration.h"
@@ -146,7 +147,7 @@ private:
         return all;
     }
 
-    using ReachOfCurve = ReachBounds (SheetParts::*)(std::uint32_t) const;
+    using ReachOfCurve = ReachBounds (SheetParts::*)(std::uint32_t);
     [[nodiscard]] ReachBounds reach_by(ReachOfCurve reach) const {
         ReachBounds most;
         for (const std::uint32_t curve : curves_) {
@@ -162,8 +163,6 @@ private:
         constexpr int kMostSteps = 60;
         const double rounding = options_.rounding;
         for (int i = 0; i < kMostSteps && high - low > kAccuracy * high + 4 * rounding; ++i) {
-            for (const auto& parts : parts_)
-                parts->look_at_corners();
             const double likely = reach_by(&SheetParts::likely_reach).low;
             const double over = likely * (1 + kAccuracyAtCorner) + rounding,
                          under = likely * (1 - kAccuracyAtCorner) - 2 * rounding;
