@@ -92,6 +92,8 @@ std::optional<double> crossing_place(const LinePiece& chord, const DirectedPiece
 
 /// The part of a chord that is within a distance of an edge.
 std::optional<LinePiece> part_within(const LinePiece& chord, const LinePiece& edge, double reach) {
+    if (!overlap(box_of(chord), box_of(edge), reach))
+        return std::nullopt;
     const auto at = [&](double share) { return chord.p + share * (chord.q - chord.p); };
     const double nearest = nearest_place(chord, edge);
     if (distance_to_line(at(nearest), edge) > reach)

@@ -58,12 +58,8 @@ SheetParts::SheetParts(const Sheet& own, const OtherSheet& other,
       faces_(own.triangles()) {
     for (const SheetCrossing& c : crossings)
         faces_[c.own].lines.push_back(c.line);
-    for (const SheetCrossing& c : crossings)
-        find_sides(c);
-    for (auto& [curve, found] : sides_) {
-        std::sort(found.begin(), found.end());
-        found.erase(std::unique(found.begin(), found.end()), found.end());
-    }
+    for (std::uint32_t i = 0; i < crossings.size(); ++i)
+        curves_[crossings[i].curve].crossings.push_back(i);
 }
 
 /// Cuts a face along its lines, unless that is done.
@@ -223,8 +219,9 @@ void SheetParts::find_sides(const SheetCrossing& crossing) {
                 (n.is_over ? found.over : found.under).push_back(n.side.owner);
         sort_unique(found.over);
         sort_unique(found.under);
-        if (!found.over.empty() && !found.under.empty())
-            sides_[crossing.curve].push_back(std::move(found));
+        std::vector<Sides>& known = curves_[crossing.curve].sides;
+        if (!found.over.empty() && !found.under.empty() && (known.empty() || known.back() != found))
+            curves_[crossing.curve].sides.push_back(std::move(found));
     }
 }
 
@@ -300,14 +297,21 @@ void SheetParts::walk(std::uint32_t number, double limit) {
     }
 }
 
-Proof SheetParts::ends_within(std::uint32_t curve, double limit) {
+Proof SheetParts::ends_within(std::uint32_t number, double limit) {
+    Curve& curve = curves_[number];
     Proof all = Proof::holds;
-    for (const auto& [over, under] : sides_[curve]) {
-        const Proof first = are_within(over, limit);
-        all = both_hold(all, first == Proof::holds ? first
-                                                   : either_holds(first, are_within(under, limit)));
+    for (std::size_t i = 0; i < curve.sides.size() || curve.looked_at < curve.crossings.size();) {
+        if (i == curve.sides.size()) {
+            find_sides(crossings_[curve.crossings[curve.looked_at++]]);
+            continue;
+        }
+        const Proof first = are_within(curve.sides[i].over, limit);
+        all = both_hold(all, first == Proof::holds
+                                 ? first
+                                 : either_holds(first, are_within(curve.sides[i].under, limit)));
         if (all == Proof::fails)
             break;
+        ++i;
     }
     return all;
 }
@@ -347,16 +351,19 @@ Proof SheetParts::examine(std::uint32_t piece, double limit) {
     return Proof::fails;
 }
 
-ReachBounds SheetParts::reach_of(std::uint32_t curve, Choose choose) {
+ReachBounds SheetParts::reach_of(std::uint32_t number, Choose choose) {
     ReachBounds most;
+    const Curve& curve = curves_[number];
     const auto of_pieces = [&](const std::vector<std::uint32_t>& pieces) {
         ReachBounds bounds;
         for (const std::uint32_t piece : pieces)
-            bounds = greater(bounds, choose(parts_[part_of(piece)].reach));
-        return bounds;
+            bounds = greater(bounds, parts_[part_of(piece)].reach);
+        return choose(bounds);
     };
-    for (const auto& [over, under] : sides_[curve])
+    for (const auto& [over, under] : curve.sides)
         most = greater(most, lesser(of_pieces(over), of_pieces(under)));
+    if (curve.looked_at < curve.crossings.size())
+        most.high = kUnbounded, most = choose(most);
     return most;
 }
 

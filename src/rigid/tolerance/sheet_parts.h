@@ -78,7 +78,12 @@ private:
     /// The pieces on both sides of a line of a curve.
     struct Sides {
         std::vector<std::uint32_t> over, under;
-        friend auto operator<=>(const Sides&, const Sides&) = default;
+        friend bool operator==(const Sides&, const Sides&) = default;
+    };
+    struct Curve {
+        std::vector<std::uint32_t> crossings;
+        std::size_t looked_at = 0; ///< crossings whose sides are found
+        std::vector<Sides> sides;
     };
     using Choose = ReachBounds (*)(const ReachBounds&);
 
@@ -108,7 +113,7 @@ private:
     const BoxIndex index_; ///< of the crossings
     std::vector<Face> faces_;
     std::vector<Piece> pieces_;
-    std::map<std::uint32_t, std::vector<Sides>> sides_; ///< by curve
+    std::map<std::uint32_t, Curve> curves_;
     std::vector<Part> parts_;
     std::vector<std::uint32_t> united_; ///< by part: the part it belongs to, or itself
 };
