@@ -3,9 +3,11 @@
 #include "clash/blocks_pair.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "rigid/tolerance/overlap_within.h"
+#include "rigid/tolerance/point_order.h"
 #include "rigid/tolerance/sheets_cross.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -143,34 +145,53 @@ private:
     Sheets of_a_, of_b_;
 };
 
-/// Decides whether two surfaces cross only with their borders where both bound no solids. If not,
-/// `depth` becomes at least what one goes beyond the other.
-Proof cross_at_most(PartPair& pair, SheetsOfPair& sheets, double touch, LocalPenetration& depth) {
-    const WorldSolid &a = pair.a().solid(), &b = pair.b().solid();
-    const Vec3 shift = sheet_shift(a, b);
-    const ClashPart &of_a = pair.a().part(), &of_b = pair.b().part();
-    Transform world = of_b.world_from_mesh;
-    world.m[9] += shift.x, world.m[10] += shift.y, world.m[11] += shift.z;
-    const Box3 box = grown(of_b.box, length(shift));
-    const ClashPart moved{of_b.model, of_b.blocks, world, box};
-    const auto decide = [&](PartPair&& shifted) {
+/// Returns whether a surface is the first of two, whatever their order: by their first triangle.
+bool is_first(const WorldSolid& a, const WorldSolid& b) {
+    const Triangle t = a.world_triangle(0), u = b.world_triangle(0);
+    return std::ranges::lexicographical_compare(
+        t, u, [](const Vec3& p, const Vec3& q) { return is_before(p, q); });
+}
+
+/// The contacts of faces that bound no solid, of a and of b moved by a vector, and how far these faces go
+/// beyond each other. The point is told where b is not moved.
+SheetOverlap overlap_if_moved(const ClashPart& a, const ClashPart& b, const Vec3& by, double touch,
+                              const std::function<bool(const Contact&)>& are_sheets) {
+    Transform world = b.world_from_mesh;
+    world.m[9] += by.x, world.m[10] += by.y, world.m[11] += by.z;
+    const ClashPart moved{b.model, b.blocks, world, grown(b.box, length(by))};
+    const auto decide = [&](PartPair&& pair) {
         std::vector<Contact> contacts;
-        shifted.for_each_contact([&](const Contact& contact) {
-            if (sheets.have(contact))
+        pair.for_each_contact([&](const Contact& contact) {
+            if (are_sheets(contact))
                 contacts.push_back(contact);
         });
-        if (contacts.empty())
-            return Proof::holds;
-        std::optional<Vec3> found;
-        const Proof proof =
-            sheets_cross_at_most(shifted.a().solid(), shifted.b().solid(), contacts, touch, &found);
-        if (proof == Proof::fails && found)
-            if (const LocalPenetration beyond = depth_at(a, b, *found); depth.depth < beyond.depth)
-                depth = beyond;
-        return proof;
+        SheetOverlap overlap =
+            overlap_of_sheets(pair.a().solid(), pair.b().solid(), contacts, touch);
+        if (overlap.of_b)
+            overlap.point = overlap.point - by;
+        return overlap;
     };
-    return of_a.blocks != nullptr || of_b.blocks != nullptr ? decide(BlocksPair(of_a, moved))
-                                                            : decide(WholePair(of_a, moved));
+    return a.blocks != nullptr || b.blocks != nullptr ? decide(BlocksPair(a, moved))
+                                                      : decide(WholePair(a, moved));
+}
+
+/// Decides whether two surfaces go at most `touch` beyond each other where both bound no solids. `depth`
+/// becomes at least as deep as that.
+Proof cross_at_most(PartPair& pair, SheetsOfPair& sheets, double touch, LocalPenetration& depth) {
+    const WorldSolid &a = pair.a().solid(), &b = pair.b().solid();
+    const ClashPart &of_a = pair.a().part(), &of_b = pair.b().part();
+    const Vec3 shift = sheet_shift(a, b);
+    // One of them is moved, the same one for either order.
+    const SheetOverlap overlap =
+        is_first(b, a) ? overlap_if_moved(of_b, of_a, shift, touch,
+                                          [&](const Contact& c) {
+                                              return sheets.have({{c.pair.b, c.pair.a}, c.kind});
+                                          })
+                       : overlap_if_moved(of_a, of_b, shift, touch,
+                                          [&](const Contact& c) { return sheets.have(c); });
+    if (overlap.depth > depth.depth)
+        depth = depth_at(a, b, overlap.point);
+    return overlap.within;
 }
 
 LocalPenetration depth_of(const WorldSolid& a, const WorldSolid& b,
@@ -200,11 +221,14 @@ MeetingKind meeting_kind(PartPair& pair, std::span<const Contact> contacts, cons
     const bool knows_all = touch == 0 || (a.boundary() == nullptr && b.boundary() == nullptr);
     if (knows_all && !meeting.interpenetrate)
         return {};
-    MeetingKind result{ClashKind::hard, depth_of(a, b, contacts, touch)};
+    MeetingKind result{ClashKind::hard, {}};
+    const bool sheets_only = !a.bounds_solid() && !b.bounds_solid();
+    if (touch == 0 || !sheets_only)
+        result.penetration = depth_of(a, b, contacts, touch);
     if (touch == 0)
         return result;
     Proof within = Proof::holds;
-    if (a.bounds_solid() || b.bounds_solid())
+    if (!sheets_only)
         within = overlaps_at_most(a, b, contacts, touch, result.penetration);
     SheetsOfPair sheets(a, b);
     if (within != Proof::fails && meeting.interpenetrate &&

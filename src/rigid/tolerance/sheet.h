@@ -1,57 +1,84 @@
 #pragma once
 
 #include "rigid/solid/world_solid.h"
-#include "rigid/tolerance/face_polygon.h"
+#include "rigid/tolerance/box_index.h"
+#include "rigid/tolerance/line_piece.h"
 
 #include <array>
 #include <cstdint>
-#include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
 namespace abut {
 
-/// A surface as a list of triangles whose vertices at equal positions are one vertex. Its triangles may
-/// be replaced by pieces of them.
+/// A side of a face or of a piece of one.
+struct FaceSide {
+    LinePiece line;
+    Vec3 inward;             ///< unit vector in the face, square to the line, towards the face
+    std::uint32_t owner = 0; ///< the face or the piece
+};
+
+/// A surface as a list of triangles whose vertices at equal positions are one vertex.
+///
+/// Frame       the world, with its origin moved to one that is given.
 class Sheet {
 public:
-    using Edge = std::pair<std::uint32_t, std::uint32_t>; ///< two vertices, the lower number first
+    /// In      thin: faces that are not higher than that are no part of the sheet; what is on both sides
+    ///         of them is as near.
+    Sheet(const WorldSolid& surface, const Vec3& origin, double thin);
 
-    explicit Sheet(const WorldSolid& surface);
-
-    [[nodiscard]] std::size_t vertices() const { return positions_.size(); }
     [[nodiscard]] std::size_t triangles() const { return triangles_.size(); }
     [[nodiscard]] const Triangle& triangle(std::uint32_t i) const { return triangles_[i]; }
-    [[nodiscard]] const Vec3& position(std::uint32_t vertex) const { return positions_[vertex]; }
-    /// The first of the vertices that only pieces have.
-    [[nodiscard]] std::uint32_t first_new_vertex() const {
-        return static_cast<std::uint32_t>(sorted_);
-    }
-    /// The vertices of a triangle.
-    [[nodiscard]] const std::array<std::uint32_t, 3>& corners(std::uint32_t i) const {
-        return corners_[i];
-    }
-    /// The edge from corner `k` to the next.
-    [[nodiscard]] Edge edge(std::uint32_t i, std::size_t k) const {
-        return std::minmax(corners_[i][k], corners_[i][(k + 1) % 3]);
-    }
-    /// The edges of all triangles, sorted. Triangles of the same vertices count once.
-    [[nodiscard]] std::vector<Edge> edges_of_faces() const;
-    /// The triangles that stand for a triangle of the surface: itself, or its pieces.
-    [[nodiscard]] std::vector<std::uint32_t> pieces_of(std::uint32_t number) const;
+    /// The unit normal of a triangle; zero if it is thin.
+    [[nodiscard]] const Vec3& normal(std::uint32_t i) const { return normals_[i]; }
 
-    /// Replaces a triangle of the surface by convex pieces of it, unless there are none.
-    void replace(std::uint32_t number, const std::vector<FacePolygon>& pieces);
+    /// The triangles that share an edge with one; itself and thin ones are not among them.
+    [[nodiscard]] std::span<const std::uint32_t> neighbours(std::uint32_t i) const {
+        return std::span(neighbours_)
+            .subspan(first_neighbour_[i], first_neighbour_[i + 1] - first_neighbour_[i]);
+    }
+    /// The sides of triangles at edges where all triangles extend to one side. There the sheet ends, or
+    /// goes on at the edge of a triangle with other vertices.
+    [[nodiscard]] const std::vector<FaceSide>& loose_sides() const { return loose_; }
+    /// Calls visit(number of a loose side) for those whose boxes meet a box.
+    template <typename Visit>
+    void for_each_loose(const Box3& box, const Visit& visit) const {
+        loose_index_.for_each_overlap(box, visit);
+    }
 
 private:
-    std::uint32_t vertex_at(const Vec3& position);
-    void add(const Triangle& t);
+    struct EdgeOfTriangle {
+        std::pair<std::uint32_t, std::uint32_t> vertices; ///< the lower number first
+        std::uint32_t triangle = 0, corner = 0;           ///< the edge's first corner
+    };
+    [[nodiscard]] std::vector<EdgeOfTriangle> edges() const;
+    [[nodiscard]] FaceSide side(const EdgeOfTriangle& edge) const;
+    void connect();
 
-    std::vector<Vec3> positions_; ///< those of the surface are sorted; others follow
-    std::size_t sorted_ = 0;
-    std::vector<Triangle> triangles_; ///< by number in the whole mesh; more pieces follow
-    std::vector<std::array<std::uint32_t, 3>> corners_;
-    std::map<std::uint32_t, std::vector<std::uint32_t>> more_pieces_; ///< by number of a triangle
+    std::vector<Triangle> triangles_; ///< by number in the whole mesh
+    std::vector<Vec3> normals_;
+    std::vector<std::uint32_t> neighbours_, first_neighbour_; ///< by triangle
+    std::vector<FaceSide> loose_;
+    BoxIndex loose_index_{{}};
 };
+
+/// The unit vector in a face with a normal, square to a line in it, that points to the left of the
+/// line: inward, if the face's corners are in order.
+inline Vec3 left_of(const LinePiece& line, const Vec3& normal) {
+    return normalized_or_zero(cross(normal, line.q - line.p));
+}
+
+/// Returns whether faces at a line extend from it to the same side.
+inline bool same_side(const Vec3& inward, const Vec3& other) {
+    constexpr double kAngle = 1e-6;
+    return length_sq(inward - other) < kAngle * kAngle;
+}
+
+/// The edges, or parts of them, beyond which a sheet does not go on: all faces there extend to one
+/// side. Where a vertex of one face lies on the edge of another one, the sheet goes on.
+///
+/// In          near: positions that are no farther apart are one.
+std::vector<FaceSide> border_of(const Sheet& sheet, double near);
 
 } // namespace abut

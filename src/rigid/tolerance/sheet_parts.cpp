@@ -1,172 +1,377 @@
 #include "rigid/tolerance/sheet_parts.h"
 
-#include "geometry/triangle_triangle_intersect.h"
-#include "geometry/triangle_triangle_segment.h"
+#include "core/stop.h"
+#include "rigid/tolerance/face_cutter.h"
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 #include <utility>
 
 namespace abut {
 
 namespace {
 
-std::vector<SheetContact> sorted(std::vector<SheetContact> contacts) {
-    std::stable_sort(contacts.begin(), contacts.end(),
-                     [](const auto& c, const auto& d) { return c.own < d.own; });
-    return contacts;
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+ReachBounds as_known(const ReachBounds& bounds) {
+    return bounds;
 }
+/// A part without an upper bound is likely farther than all that have one.
+ReachBounds as_likely(const ReachBounds& bounds) {
+    ReachBounds likely = bounds;
+    if (bounds.high == kUnbounded)
+        likely.low = kUnbounded;
+    return likely;
+}
+
+void sort_unique(std::vector<std::uint32_t>& numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+std::vector<Box3> boxes_of_crossings(std::span<const SheetCrossing> crossings) {
+    std::vector<Box3> boxes;
+    for (const SheetCrossing& c : crossings)
+        boxes.push_back(box_of(c.line.piece));
+    return boxes;
+}
+
+constexpr std::uint32_t kNone = 0xffffffff;
 
 } // namespace
 
-std::vector<SheetCrossing> crossings_in(std::span<const SheetContact> contacts, const Sheet& own,
-                                        const Sheet& other) {
-    std::vector<SheetCrossing> crossings;
-    for (const SheetContact& c : contacts) {
-        const Triangle &t = own.triangle(c.own), &u = other.triangle(c.other);
-        if (projection_axis(u) < 0)
-            continue;
-        for (std::size_t k = 0; k < 3; ++k)
-            if (segment_triangle_intersect(t[k], t[(k + 1) % 3], u))
-                crossings.push_back({own.edge(c.own, k), c.other, c.contact});
+ReachBounds lesser(const ReachBounds& a, const ReachBounds& b) {
+    return a.high == b.high ? (a.low <= b.low ? a : b) : (a.high < b.high ? a : b);
+}
+ReachBounds greater(const ReachBounds& a, const ReachBounds& b) {
+    ReachBounds bounds = a.low >= b.low ? a : b;
+    bounds.high = std::max(a.high, b.high);
+    return bounds;
+}
+
+SheetParts::SheetParts(const Sheet& own, const OtherSheet& other,
+                       std::span<const SheetCrossing> crossings, double border_reach, double near,
+                       ReachSearch::Options options)
+    : own_(own), other_(other), border_reach_(border_reach), near_(near),
+      options_(std::move(options)), crossings_(crossings), index_(boxes_of_crossings(crossings)),
+      faces_(own.triangles()) {
+    for (const SheetCrossing& c : crossings)
+        faces_[c.own].lines.push_back(c.line);
+    for (std::uint32_t i = 0; i < crossings.size(); ++i)
+        curves_[crossings[i].curve].crossings.push_back(i);
+}
+
+/// Cuts a face along its lines, unless that is done.
+const SheetParts::Face& SheetParts::cut(std::uint32_t number) {
+    Face& face = faces_[number];
+    const Vec3& normal = own_.normal(number);
+    if (face.is_cut)
+        return face;
+    face.is_cut = true;
+    face.first = static_cast<std::uint32_t>(pieces_.size());
+    const Triangle& t = own_.triangle(number);
+    if (normal != Vec3{}) {
+        for (const DirectedPiece& line :
+             other_.border.ends_on({t, normal, face.lines}, border_reach_))
+            face.lines.push_back(line);
+        if (face.lines.empty())
+            pieces_.push_back({number, {t[0], t[1], t[2]}, kNone});
+        else
+            for (auto& polygon : pieces_of_face(t, normal, face.lines, near_))
+                pieces_.push_back({number, std::move(polygon), kNone});
     }
-    std::sort(crossings.begin(), crossings.end(), [](const auto& c, const auto& d) {
-        return std::tie(c.edge, c.other, c.contact) < std::tie(d.edge, d.other, d.contact);
-    });
-    return crossings;
+    face.last = static_cast<std::uint32_t>(pieces_.size());
+    return face;
 }
 
-SheetParts::SheetParts(const Sheet& own, const Sheet& other, std::vector<SheetContact> contacts,
-                       const WorldSolid& surface, const ReachSearch::Options& options)
-    : own_(own), other_(other), contacts_(sorted(std::move(contacts))),
-      origin_(other.triangle(0)[0]), seen_(surface.seen_from(origin_)), options_(options),
-      crossings_(crossings_in(contacts_, own, other)), sets_(own.vertices()) {
-    unite_along_edges();
-    unite_on_edges();
+std::vector<FaceSide> SheetParts::sides_of(std::uint32_t piece) const {
+    const auto& [face, polygon, part] = pieces_[piece];
+    std::vector<FaceSide> sides;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const LinePiece line{polygon[k], polygon[(k + 1) % polygon.size()]};
+        sides.push_back({line, left_of(line, own_.normal(face)), piece});
+    }
+    return sides;
 }
 
-bool SheetParts::is_crossed(const Sheet::Edge& edge) const {
-    const auto at =
-        std::lower_bound(crossings_.begin(), crossings_.end(), edge,
-                         [](const SheetCrossing& c, const Sheet::Edge& e) { return c.edge < e; });
-    return at != crossings_.end() && at->edge == edge;
+/// Calls visit(face) for a face, for those that share an edge with it, and for those with a loose edge in
+/// a box.
+template <typename Visit>
+void SheetParts::for_each_face_at(std::uint32_t face, const Box3& box, const Visit& visit) {
+    visit(face);
+    for (const std::uint32_t neighbour : own_.neighbours(face))
+        visit(neighbour);
+    own_.for_each_loose(box, [&](std::uint32_t i) { visit(own_.loose_sides()[i].owner); });
 }
 
-void SheetParts::unite_along_edges() {
-    for (std::uint32_t i = 0; i < own_.triangles(); ++i)
-        for (std::size_t k = 0; k < 3; ++k)
-            if (const Sheet::Edge e = own_.edge(i, k); !is_crossed(e))
-                sets_.unite(e.first, e.second);
+/// The parts of a line near a face that lines of the face or of faces around it cover.
+std::vector<LineSpan> SheetParts::covers_of(const LinePiece& common, std::uint32_t number) {
+    // A line that is near a side is within this of all sides that are near that one.
+    const double near = 3 * near_;
+    const Box3 box = grown(box_of(common), near);
+    std::vector<LineSpan> covers;
+    const auto add = [&](const LinePiece& line) {
+        if (overlap(box, box_of(line)))
+            if (const auto cover = common_span(common, line, near, 0))
+                covers.push_back({cover->from - near_, cover->to + near_});
+    };
+    index_.for_each_overlap(box, [&](std::uint32_t i) { add(crossings_[i].line.piece); });
+    const auto add_ends = [&](std::uint32_t face) {
+        for (const DirectedPiece& line : cut(face).lines)
+            add(line.piece);
+    };
+    add_ends(number);
+    for (const std::uint32_t neighbour : own_.neighbours(number))
+        add_ends(neighbour);
+    return covers;
 }
 
-/// Returns whether a segment crosses the other sheet.
-bool SheetParts::crosses(const Vec3& p, const Vec3& q) const {
-    return std::ranges::any_of(contacts_, [&](const SheetContact& c) {
-        const Triangle& t = other_.triangle(c.other);
-        return projection_axis(t) >= 0 && segment_triangle_intersect(p, q, t);
-    });
+/// Returns whether two pieces share more than `near` of a side where no line runs.
+bool SheetParts::are_joined(std::uint32_t p, std::uint32_t q) {
+    const std::uint32_t of_p = pieces_[p].face, of_q = pieces_[q].face;
+    const std::vector<FaceSide> others = sides_of(q);
+    for (const FaceSide& side : sides_of(p)) {
+        const Vec3 along = normalized_or_zero(side.line.q - side.line.p);
+        const Box3 box = grown(box_of(side.line), near_);
+        for (const FaceSide& other : others) {
+            if (!overlap(box, box_of(other.line)))
+                continue;
+            const auto span = common_span(side.line, other.line, near_, 2 * near_);
+            if (!span)
+                continue;
+            const LinePiece common{side.line.p + span->from * along,
+                                   side.line.p + span->to * along};
+            std::vector<LineSpan> covers = covers_of(common, of_p);
+            if (of_q != of_p)
+                for (const LineSpan& cover : covers_of(common, of_q))
+                    covers.push_back(cover);
+            if (!uncovered({0, span->to - span->from}, covers, near_).empty())
+                return true;
+        }
+    }
+    return false;
 }
 
-/// Connects vertices of pieces with the ends of the edges on which they lie.
-void SheetParts::unite_on_edges() {
-    // Positions of vertices are rounded far less than the other sheet was moved.
-    const double off = 0.25 * options_.rounding;
-    for (std::uint32_t v = own_.first_new_vertex(); v < own_.vertices(); ++v) {
-        const Vec3& at = own_.position(v);
+/// Returns whether the piece at a side is thicker than `near` at a point close to the side. If not, and it
+/// narrows there, its other sides are as close.
+bool SheetParts::goes_on(const FaceSide& side, const Vec3& point) const {
+    const auto& [face, polygon, part] = pieces_[side.owner];
+    const Vec3 inside = point + 1.5 * near_ * side.inward;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const LinePiece line{polygon[k], polygon[(k + 1) % polygon.size()]};
+        if (dot(inside - line.p, left_of(line, own_.normal(face))) < 0)
+            return false;
+    }
+    return true;
+}
+
+/// The faces that may have a side along a crossing.
+std::vector<std::uint32_t> SheetParts::faces_along(const SheetCrossing& crossing) {
+    const Box3 box = grown(box_of(crossing.line.piece), near_);
+    std::vector<std::uint32_t> faces;
+    const auto add = [&](std::uint32_t face) { faces.push_back(face); };
+    if (own_.normal(crossing.own) != Vec3{})
+        for_each_face_at(crossing.own, box, add);
+    else // a thin face has no neighbours
         for (std::uint32_t i = 0; i < own_.triangles(); ++i) {
             const Triangle& t = own_.triangle(i);
-            Box3 box;
-            for (const Vec3& corner : t)
-                extend(box, corner);
-            if (!encloses(grown(box, off), {at, at}))
-                continue;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Vec3 &p = t[k], &q = t[(k + 1) % 3];
-                const Vec3 along = normalized_or_zero(q - p);
-                if (dot(at - p, along) <= 0 || dot(q - at, along) <= 0 ||
-                    length(cross(at - p, along)) > off)
+            if (overlap(box, {min(t[0], min(t[1], t[2])), max(t[0], max(t[1], t[2]))}))
+                add(i);
+        }
+    sort_unique(faces);
+    return faces;
+}
+
+/// Finds the pieces on both sides of a crossing.
+void SheetParts::find_sides(const SheetCrossing& crossing) {
+    struct Neighbour {
+        LineSpan span;
+        FaceSide side;
+        bool is_over;
+    };
+    const LinePiece& line = crossing.line.piece;
+    const Vec3 along = normalized_or_zero(line.q - line.p);
+    Vec3 upward = other_.sheet.normal(crossing.other);
+    std::vector<Neighbour> neighbours;
+    std::vector<double> ends;
+    for (const std::uint32_t number : faces_along(crossing)) {
+        const Face face = cut(number);
+        for (std::uint32_t piece = face.first; piece < face.last; ++piece)
+            for (const FaceSide& side : sides_of(piece))
+                if (const auto span = common_span(line, side.line, near_, 2 * near_)) {
+                    if (upward == Vec3{}) // the other face is thin
+                        upward = side.inward;
+                    neighbours.push_back({*span, side, dot(side.inward, upward) > 0});
+                    ends.push_back(span->from);
+                    ends.push_back(span->to);
+                }
+    }
+    std::sort(ends.begin(), ends.end());
+    for (std::size_t i = 1; i < ends.size(); ++i) {
+        if (ends[i] - ends[i - 1] <= 2 * near_)
+            continue;
+        const double at = 0.5 * (ends[i] + ends[i - 1]);
+        Sides found;
+        const Vec3 middle = line.p + at * along;
+        for (const Neighbour& n : neighbours)
+            if (n.span.from < at && at < n.span.to && goes_on(n.side, middle))
+                (n.is_over ? found.over : found.under).push_back(n.side.owner);
+        sort_unique(found.over);
+        sort_unique(found.under);
+        std::vector<Sides>& known = curves_[crossing.curve].sides;
+        if (!found.over.empty() && !found.under.empty() && (known.empty() || known.back() != found))
+            curves_[crossing.curve].sides.push_back(std::move(found));
+    }
+}
+
+/// The part of a piece; a new one if it is not reached yet.
+std::uint32_t SheetParts::part_of(std::uint32_t piece) {
+    if (pieces_[piece].part == kNone) {
+        const auto part = static_cast<std::uint32_t>(parts_.size());
+        united_.push_back(part);
+        parts_.push_back({{0, kUnbounded, {}}, {}, {}});
+        reach(piece, part);
+    }
+    std::uint32_t part = pieces_[piece].part;
+    while (united_[part] != part)
+        part = united_[part] = united_[united_[part]];
+    return part;
+}
+
+/// Adds a piece to a part.
+void SheetParts::reach(std::uint32_t piece, std::uint32_t number) {
+    Part& part = parts_[number];
+    pieces_[piece].part = number;
+    double farthest = 0;
+    for (const Vec3& corner : pieces_[piece].polygon) {
+        const double distance =
+            other_.surface.nearest(corner, WorldSolid::NearestSearch{}).distance;
+        farthest = std::max(farthest, distance);
+        if (distance > part.reach.low)
+            part.reach.low = distance, part.reach.point = corner;
+    }
+    part.pieces.push_back(piece);
+    part.edge.emplace(farthest, piece);
+}
+
+void SheetParts::unite(std::uint32_t number, std::uint32_t other_number) {
+    if (number == other_number)
+        return;
+    Part &part = parts_[number], &other = parts_[other_number];
+    united_[other_number] = number;
+    part.reach = greater(part.reach, other.reach);
+    part.reach.high = kUnbounded;
+    part.pieces.insert(part.pieces.end(), other.pieces.begin(), other.pieces.end());
+    for (; !other.edge.empty(); other.edge.pop())
+        part.edge.push(other.edge.top());
+    other.pieces.clear();
+}
+
+/// Walks a part until a corner is farther than a limit.
+void SheetParts::walk(std::uint32_t number, double limit) {
+    while (parts_[number].reach.low <= limit && !parts_[number].edge.empty()) {
+        poll_stop();
+        const std::uint32_t piece = parts_[number].edge.top().second;
+        parts_[number].edge.pop();
+        Box3 box;
+        for (const Vec3& corner : pieces_[piece].polygon)
+            extend(box, corner);
+        std::vector<std::uint32_t> faces;
+        for_each_face_at(pieces_[piece].face, grown(box, near_),
+                         [&](std::uint32_t face) { faces.push_back(face); });
+        sort_unique(faces);
+        for (const std::uint32_t face : faces) {
+            const auto [first, last] = std::pair(cut(face).first, cut(face).last);
+            for (std::uint32_t next = first; next < last; ++next) {
+                const bool is_known = pieces_[next].part != kNone;
+                if (next == piece || (is_known && part_of(next) == number) ||
+                    !are_joined(piece, next))
                     continue;
-                if (!crosses(at, p))
-                    sets_.unite(v, own_.corners(i)[k]);
-                if (!crosses(at, q))
-                    sets_.unite(v, own_.corners(i)[(k + 1) % 3]);
+                if (is_known)
+                    unite(number, part_of(next));
+                else
+                    reach(next, number);
             }
         }
     }
 }
 
-Proof SheetParts::ends_at(const SheetCrossing& crossing) {
-    const Proof first = is_near(crossing.edge.first);
-    return first == Proof::holds ? first : either_holds(first, is_near(crossing.edge.second));
-}
-
-/// Decides whether the part that holds a vertex is near the other sheet.
-Proof SheetParts::is_near(std::uint32_t vertex) {
-    const std::uint32_t part = sets_.root(vertex);
-    const auto [at, is_new] = near_.try_emplace(part, Proof::holds);
-    if (is_new)
-        at->second = examine(part);
-    return at->second;
-}
-
-std::span<const std::uint32_t> SheetParts::triangles_of(std::uint32_t part) {
-    if (by_part_.empty()) {
-        for (std::uint32_t i = 0; i < own_.triangles(); ++i)
-            for (const std::uint32_t vertex : own_.corners(i))
-                by_part_[sets_.root(vertex)].push_back(i);
-        for (auto& [number, triangles] : by_part_)
-            triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-    }
-    return by_part_[part];
-}
-
-Proof SheetParts::examine(std::uint32_t part) {
-    ReachSearch search(*seen_, options_);
-    for (const std::uint32_t i : triangles_of(part)) {
-        const Triangle& t = own_.triangle(i);
-        std::vector<Vec3> in_part;
-        for (std::size_t k = 0; k < 3; ++k)
-            if (sets_.root(own_.corners(i)[k]) == part)
-                in_part.push_back(t[k]);
-        if (in_part.size() == 3 ? !add(t[0], t[1], t[2], search)
-                                : !add_beyond_curve(i, in_part, search))
-            break;
-    }
-    if (search.proof() == Proof::fails) {
-        const Vec3& point = search.counterexample();
-        const double length = seen_->nearest(point, {}).distance;
-        if (!beyond_ || length < beyond_->length)
-            beyond_ = {length, origin_ + point};
-    }
-    return search.proof();
-}
-
-/// Returns whether a triangle, and all before, are near.
-bool SheetParts::add(const Vec3& p, const Vec3& q, const Vec3& r, ReachSearch& search) const {
-    return search.add({p - origin_, q - origin_, r - origin_}) == Proof::holds;
-}
-
-/// Adds what lies between the corners of a crossed triangle that are in the part and the curve.
-bool SheetParts::add_beyond_curve(std::uint32_t triangle, const std::vector<Vec3>& in_part,
-                                  ReachSearch& search) const {
-    const Triangle& t = own_.triangle(triangle);
-    const auto [first, last] =
-        std::equal_range(contacts_.begin(), contacts_.end(), SheetContact{triangle, 0, 0},
-                         [](const auto& c, const auto& d) { return c.own < d.own; });
-    if (first == last) // crossed only since the shift
-        return add(t[0], t[1], t[2], search);
-    for (auto at = first; at != last; ++at) {
-        const Intersection common = triangle_triangle_segment(t, other_.triangle(at->other));
-        if (common.count == 0)
+Proof SheetParts::ends_within(std::uint32_t number, double limit) {
+    Curve& curve = curves_[number];
+    Proof all = Proof::holds;
+    for (std::size_t i = 0; i < curve.sides.size() || curve.looked_at < curve.crossings.size();) {
+        if (i == curve.sides.size()) {
+            find_sides(crossings_[curve.crossings[curve.looked_at++]]);
             continue;
-        const Vec3 &p = common.corners[0], &q = common.corners[common.count - 1];
-        for (const Vec3& corner : in_part)
-            if (!add(corner, p, q, search))
-                return false;
-        if (in_part.size() == 2 &&
-            (!add(in_part[0], in_part[1], p, search) || !add(in_part[0], in_part[1], q, search)))
-            return false;
+        }
+        const Proof first = are_within(curve.sides[i].over, limit);
+        all = both_hold(all, first == Proof::holds
+                                 ? first
+                                 : either_holds(first, are_within(curve.sides[i].under, limit)));
+        if (all == Proof::fails)
+            break;
+        ++i;
     }
-    return true;
+    return all;
+}
+
+Proof SheetParts::are_within(const std::vector<std::uint32_t>& pieces, double limit) {
+    Proof all = Proof::holds;
+    for (const std::uint32_t piece : pieces)
+        all = both_hold(all, examine(piece, limit));
+    return all;
+}
+
+/// Decides whether the part of a piece is within a limit, unless that is known.
+Proof SheetParts::examine(std::uint32_t piece, double limit) {
+    const std::uint32_t number = part_of(piece);
+    ReachBounds& known = parts_[number].reach;
+    if (known.high <= limit)
+        return Proof::holds;
+    walk(number, limit + options_.rounding);
+    if (known.low > limit + options_.rounding)
+        return Proof::fails;
+    ReachSearch::Options options = options_;
+    options.limit = limit;
+    ReachSearch search(other_.surface, options);
+    for (const std::uint32_t i : parts_[number].pieces) {
+        const std::vector<Vec3>& polygon = pieces_[i].polygon;
+        for (std::size_t k = 2; k < polygon.size() && search.proof() == Proof::holds; ++k)
+            search.add({polygon[0], polygon[k - 1], polygon[k]});
+    }
+    if (search.proof() == Proof::holds)
+        known.high = limit;
+    if (search.proof() != Proof::fails)
+        return search.proof();
+    const double distance =
+        other_.surface.nearest(search.counterexample(), WorldSolid::NearestSearch{}).distance;
+    if (distance > known.low)
+        known.low = distance, known.point = search.counterexample();
+    return Proof::fails;
+}
+
+ReachBounds SheetParts::reach_of(std::uint32_t number, Choose choose) {
+    ReachBounds most;
+    const Curve& curve = curves_[number];
+    const auto of_pieces = [&](const std::vector<std::uint32_t>& pieces) {
+        ReachBounds bounds;
+        for (const std::uint32_t piece : pieces)
+            bounds = greater(bounds, parts_[part_of(piece)].reach);
+        return choose(bounds);
+    };
+    for (const auto& [over, under] : curve.sides)
+        most = greater(most, lesser(of_pieces(over), of_pieces(under)));
+    if (curve.looked_at < curve.crossings.size())
+        most.high = kUnbounded, most = choose(most);
+    return most;
+}
+
+ReachBounds SheetParts::reach_beyond(std::uint32_t curve) {
+    return reach_of(curve, as_known);
+}
+ReachBounds SheetParts::likely_reach(std::uint32_t curve) {
+    return reach_of(curve, as_likely);
 }
 
 } // namespace abut

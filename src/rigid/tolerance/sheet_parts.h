@@ -1,79 +1,121 @@
 #pragma once
 
-#include "core/disjoint_sets.h"
 #include "rigid/tolerance/reach_search.h"
 #include "rigid/tolerance/sheet.h"
+#include "rigid/tolerance/sheet_border.h"
 
 #include <cstdint>
 #include <map>
-#include <optional>
+#include <queue>
 #include <span>
-#include <tuple>
 #include <vector>
 
 namespace abut {
 
-/// A triangle of one sheet and one of another that share a point.
-struct SheetContact {
-    std::uint32_t own = 0, other = 0; ///< triangles
-    std::uint32_t contact = 0;        ///< the contact of the surfaces of which this is a part
-};
-
-/// An edge of one sheet that crosses a triangle of the other one.
+/// A line along which a triangle of one sheet crosses one of another.
 struct SheetCrossing {
-    Sheet::Edge edge;
-    std::uint32_t other = 0;   ///< triangle
-    std::uint32_t contact = 0; ///< as SheetContact::contact
-    [[nodiscard]] auto key() const { return std::tie(edge, other); }
+    std::uint32_t own = 0, other = 0; ///< triangles
+    DirectedPiece line;
+    std::uint32_t curve = 0; ///< of which the line is a part
 };
 
-/// The crossings in all contacts, sorted by edge, then by the other triangle, then by contact.
-std::vector<SheetCrossing> crossings_in(std::span<const SheetContact> contacts, const Sheet& own,
-                                        const Sheet& other);
+/// What is known of the greatest distance of some points from a surface.
+struct ReachBounds {
+    double low = 0; ///< reached at a point
+    double high = 0;
+    Vec3 point;
+    bool of_second = false; ///< whether the point is on the second of two sheets
+};
+/// What is known of the lesser and of the greater of two distances.
+ReachBounds lesser(const ReachBounds& a, const ReachBounds& b);
+ReachBounds greater(const ReachBounds& a, const ReachBounds& b);
 
-/// The parts into which a sheet falls along the curves in which it crosses another one: vertices that
-/// are connected by edges which do not cross it. A vertex of a piece may lie on an edge of another
-/// piece. Decides which parts are near the other sheet.
+/// Another sheet, as a sheet is divided along it.
+struct OtherSheet {
+    const Sheet& sheet;
+    const SheetBorder& border;
+    const WorldSolid& surface; ///< of the sheet, in its frame
+};
+
+/// The parts into which a sheet falls along the lines in which it crosses another one, and where it
+/// leaves that one over its border. Bounds how far each part goes from the other sheet.
+///
+/// Faces are cut along these lines. Pieces are connected where their sides share more than some `near`,
+/// and no line runs there. So neither how faces are divided into triangles nor vertices on edges matter.
+/// A part is walked from the lines outward, the farthest piece first, only as far as a question needs.
 class SheetParts {
 public:
-    /// In      contacts: all. surface: that of `other`. options: as everywhere_near().
-    SheetParts(const Sheet& own, const Sheet& other, std::vector<SheetContact> contacts,
-               const WorldSolid& surface, const ReachSearch::Options& options);
+    /// In      own, other, crossings: must outlive the parts. border_reach: the other sheet's border matters as far from it as that. options: of the
+    ///         searches; their limit is not used.
+    SheetParts(const Sheet& own, const OtherSheet& other, std::span<const SheetCrossing> crossings,
+               double border_reach, double near, ReachSearch::Options options);
 
-    [[nodiscard]] const std::vector<SheetCrossing>& crossings() const { return crossings_; }
-
-    /// Decides whether the sheet ends near the other one on either side of a crossing edge.
-    Proof ends_at(const SheetCrossing& crossing);
-
-    /// The shortest length found by which a part that is not near goes on beyond the other sheet.
-    struct Beyond {
-        double length = 0;
-        Vec3 point; ///< in the world
-    };
-    [[nodiscard]] const std::optional<Beyond>& beyond() const { return beyond_; }
+    /// Decides whether on one side of each line of a curve, the sheet goes at most `limit` from the other
+    /// one.
+    Proof ends_within(std::uint32_t curve, double limit);
+    /// How far it goes on the side on which it goes less far: the greatest along the curve.
+    [[nodiscard]] ReachBounds reach_beyond(std::uint32_t curve);
+    /// As reach_beyond(), but parts without an upper bound reach infinitely far.
+    [[nodiscard]] ReachBounds likely_reach(std::uint32_t curve);
 
 private:
-    void unite_along_edges();
-    void unite_on_edges();
-    [[nodiscard]] bool is_crossed(const Sheet::Edge& edge) const;
-    [[nodiscard]] bool crosses(const Vec3& p, const Vec3& q) const;
-    [[nodiscard]] std::span<const std::uint32_t> triangles_of(std::uint32_t part);
-    Proof is_near(std::uint32_t vertex);
-    Proof examine(std::uint32_t part);
-    bool add(const Vec3& p, const Vec3& q, const Vec3& r, ReachSearch& search) const;
-    bool add_beyond_curve(std::uint32_t triangle, const std::vector<Vec3>& in_part,
-                          ReachSearch& search) const;
+    struct Piece {
+        std::uint32_t face = 0;
+        std::vector<Vec3> polygon;
+        std::uint32_t part = 0; ///< if it is reached; else kNone
+    };
+    struct Face {
+        bool is_cut = false;
+        std::vector<DirectedPiece> lines;
+        std::uint32_t first = 0, last = 0; ///< pieces
+    };
+    /// A part, as far as it is walked.
+    struct Part {
+        ReachBounds reach;
+        std::vector<std::uint32_t> pieces;
+        std::priority_queue<std::pair<double, std::uint32_t>> edge; ///< farthest first
+    };
+    /// The pieces on both sides of a line of a curve.
+    struct Sides {
+        std::vector<std::uint32_t> over, under;
+        friend bool operator==(const Sides&, const Sides&) = default;
+    };
+    struct Curve {
+        std::vector<std::uint32_t> crossings;
+        std::size_t looked_at = 0; ///< crossings whose sides are found
+        std::vector<Sides> sides;
+    };
+    using Choose = ReachBounds (*)(const ReachBounds&);
 
-    const Sheet &own_, &other_;
-    const std::vector<SheetContact> contacts_; ///< sorted by the own triangle
-    const Vec3 origin_;
-    const std::unique_ptr<const WorldSolid> seen_; ///< the other surface, seen from there
+    const Face& cut(std::uint32_t face);
+    [[nodiscard]] std::vector<FaceSide> sides_of(std::uint32_t piece) const;
+    template <typename Visit>
+    void for_each_face_at(std::uint32_t face, const Box3& box, const Visit& visit);
+    [[nodiscard]] std::vector<LineSpan> covers_of(const LinePiece& common, std::uint32_t face);
+    [[nodiscard]] bool are_joined(std::uint32_t p, std::uint32_t q);
+    [[nodiscard]] bool goes_on(const FaceSide& side, const Vec3& point) const;
+    void find_sides(const SheetCrossing& crossing);
+    [[nodiscard]] std::vector<std::uint32_t> faces_along(const SheetCrossing& crossing);
+
+    std::uint32_t part_of(std::uint32_t piece);
+    void reach(std::uint32_t piece, std::uint32_t part);
+    void unite(std::uint32_t part, std::uint32_t other);
+    void walk(std::uint32_t part, double limit);
+    [[nodiscard]] Proof are_within(const std::vector<std::uint32_t>& pieces, double limit);
+    Proof examine(std::uint32_t piece, double limit);
+    [[nodiscard]] ReachBounds reach_of(std::uint32_t curve, Choose choose);
+
+    const Sheet& own_;
+    const OtherSheet other_;
+    const double border_reach_, near_;
     const ReachSearch::Options options_;
-    const std::vector<SheetCrossing> crossings_;
-    DisjointSets sets_;                                           ///< of vertices
-    std::map<std::uint32_t, std::vector<std::uint32_t>> by_part_; ///< triangles with a vertex in it
-    std::map<std::uint32_t, Proof> near_;                         ///< by part
-    std::optional<Beyond> beyond_;
+    const std::span<const SheetCrossing> crossings_;
+    const BoxIndex index_; ///< of the crossings
+    std::vector<Face> faces_;
+    std::vector<Piece> pieces_;
+    std::map<std::uint32_t, Curve> curves_;
+    std::vector<Part> parts_;
+    std::vector<std::uint32_t> united_; ///< by part: the part it belongs to, or itself
 };
 
 } // namespace abut

@@ -1,161 +1,198 @@
 #include "rigid/tolerance/sheets_cross.h"
 
+#include "core/disjoint_sets.h"
 #include "geometry/triangle_triangle_intersect.h"
 #include "geometry/triangle_triangle_segment.h"
 #include "rigid/penetration/local_penetration.h"
 #include "rigid/tolerance/sheet_parts.h"
-#include "rigid/tolerance/sheet_slits.h"
 
 #include <algorithm>
 #include <array>
 #include <map>
-#include <optional>
+#include <memory>
 #include <vector>
 
 namespace abut {
 
 namespace {
 
-/// Pieces of faces that may be examined to decide whether one part beyond a curve is near.
+/// Pieces of faces that may be examined to decide whether one part beside a curve is near.
 constexpr std::uint32_t kBudget = 20'000;
 
-/// The width of a slit, as a multiple of the length by which one sheet is moved.
-constexpr double kSlitWidth = 4;
-/// A curve that is not longer than this many slits are wide may be there only because of the shift.
+/// Positions that are no farther apart than this many lengths by which one sheet is moved are one. A
+/// corner of a line in which triangles cross is off by at most 2^-36 of an edge.
+constexpr double kNear = 8;
+/// A curve that is not larger than this many such lengths may be there only because of the shift.
 constexpr double kTinyCurve = 4;
 
-/// The edges of a sheet that belong to one triangle only and pass through the other one.
-std::vector<BorderCrossing> border_crossings(std::span<const SheetContact> contacts,
-                                             const Sheet& own, const Sheet& other) {
-    const std::vector<Sheet::Edge> edges = own.edges_of_faces();
-    std::vector<BorderCrossing> crossings;
-    for (const SheetContact& c : contacts) {
-        const Triangle &t = own.triangle(c.own), &u = other.triangle(c.other);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto [first, last] =
-                std::equal_range(edges.begin(), edges.end(), own.edge(c.own, k));
-            if (last - first == 1 && projection_axis(u) >= 0 &&
-                segment_triangle_intersect(t[k], t[(k + 1) % 3], u))
-                crossings.push_back({t, k, c.other});
-        }
-    }
-    return crossings;
-}
+/// By which factor the distance grows up to which borders are looked at.
+constexpr double kStep = 8;
+/// The relative accuracy of a depth that no corner reaches.
+constexpr double kAccuracy = 0x1p-12;
+/// Relative distances from the depth of a corner at which it is proven to be the depth.
+constexpr double kAccuracyAtCorner = 0x1p-30;
 
-/// The contacts of a sheet's pieces with the other one.
-std::vector<SheetContact> contacts_of_pieces(std::span<const SheetContact> contacts,
-                                             const Sheet& own, const Sheet& other) {
-    std::vector<SheetContact> found;
-    for (const SheetContact& c : contacts) {
-        const std::vector<std::uint32_t> pieces = own.pieces_of(c.own);
-        for (const std::uint32_t piece : pieces)
-            if (pieces.size() == 1 ||
-                triangle_triangle_intersect(own.triangle(piece), other.triangle(c.other)) !=
-                    TriangleContact::none)
-                found.push_back({piece, c.other, c.contact});
-    }
-    return found;
-}
-
-/// Two surfaces with the curves in which they cross.
+/// Two surfaces with the lines in which they cross.
 class SheetPair {
 public:
     SheetPair(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts,
               double tolerance)
-        : sheets_{Sheet(a), Sheet(b)}, curves_(contacts.size()) {
-        const double shift = length(sheet_shift(a, b));
-        options_ = {.limit = tolerance,
-                    .rounding = depth_rounding(a, b) + shift,
+        : origin_(a.world_triangle(contacts[0].pair.a)[0]),
+          near_(kNear * length(sheet_shift(a, b))), sheets_{Sheet(a, origin_, near_),
+                                                            Sheet(b, origin_, near_)},
+          surfaces_{a.seen_from(origin_), b.seen_from(origin_)},
+          borders_{SheetBorder(sheets_[0], *surfaces_[0], near_),
+                   SheetBorder(sheets_[1], *surfaces_[1], near_)},
+          tolerance_(tolerance) {
+        options_ = {.rounding = depth_rounding(a, b) + length(sheet_shift(a, b)),
                     .both_sides = true,
                     .budget = kBudget};
-        slit_width_ = kSlitWidth * shift;
-        for (std::uint32_t i = 0; i < contacts.size(); ++i) {
-            contacts_[0].push_back({contacts[i].pair.a, contacts[i].pair.b, i});
-            contacts_[1].push_back({contacts[i].pair.b, contacts[i].pair.a, i});
+        for (const Contact& contact : contacts) {
+            const Triangle s = a.world_triangle(contact.pair.a),
+                           t = b.world_triangle(contact.pair.b);
+            const Intersection common = triangle_triangle_segment(s, t);
+            if (common.count != 2 || projection_axis(s) < 0 || projection_axis(t) < 0)
+                continue;
+            const LinePiece line{common.corners[0] - origin_, common.corners[1] - origin_};
+            crossings_[0].push_back(
+                {contact.pair.a, contact.pair.b, directed(line, contact.pair), 0});
         }
-        connect_curves();
-        decide(0, b);
-        decide(1, a);
+        find_curves();
+        for (const SheetCrossing& c : crossings_[0])
+            crossings_[1].push_back({c.other, c.own, c.line, c.curve});
+        for (const WorldSolid* surface : {surfaces_[0].get(), surfaces_[1].get()})
+            extend(box_, surface->world_box().lower), extend(box_, surface->world_box().upper);
     }
 
-    /// Decides whether along each curve one of the sheets ends near the other one.
-    [[nodiscard]] Proof proof() const {
-        Proof all = Proof::holds;
-        for (const auto& [curve, ends] : ends_)
-            all = both_hold(
-                all, either_holds(ends[0].value_or(Proof::fails), ends[1].value_or(Proof::fails)));
-        return all;
+    SheetOverlap overlap() {
+        SheetOverlap result;
+        double before = 0;
+        ReachBounds known;
+        for (double reach = tolerance_; !curves_.empty();) {
+            divide(reach);
+            const Proof within = within_limit(reach);
+            if (reach == tolerance_)
+                result.within = within;
+            const bool is_last = reach >= length(box_.upper - box_.lower);
+            if (within == Proof::holds)
+                narrow(before, reach);
+            if (within == Proof::holds || is_last || result.within == Proof::open)
+                break;
+            // Where places on borders were missed, the next depth may be less than what is known.
+            before = reach;
+            known = reach_by(&SheetParts::reach_beyond);
+            reach *= kStep;
+        }
+        ReachBounds bounds = parts_[0] ? reach_by(&SheetParts::reach_beyond) : ReachBounds{};
+        if (bounds.low <= before)
+            bounds = known;
+        if (bounds.low > options_.rounding)
+            result.depth = bounds.low, result.point = origin_ + bounds.point,
+            result.of_b = bounds.of_second;
+        return result;
     }
-    /// A point that goes on beyond the other sheet, in the world.
-    [[nodiscard]] const std::optional<SheetParts::Beyond>& beyond() const { return beyond_; }
 
 private:
-    /// Contacts are on one curve if an edge crosses a triangle where the curve passes on.
-    void connect_curves() {
-        std::vector<std::uint32_t> crossed;
-        for (std::size_t side = 0; side < 2; ++side) {
-            const std::vector<SheetCrossing> crossings =
-                crossings_in(contacts_[side], sheets_[side], sheets_[1 - side]);
-            for (std::size_t i = 0; i < crossings.size(); ++i) {
-                crossed.push_back(crossings[i].contact);
-                if (i > 0 && crossings[i].key() == crossings[i - 1].key())
-                    curves_.unite(crossings[i].contact, crossings[i - 1].contact);
-            }
-        }
-        // Sheets that only touch at a point cross there once they are shifted.
+    /// A line in which two triangles cross. If it is short, their normals tell its direction.
+    [[nodiscard]] DirectedPiece directed(const LinePiece& line, const TrianglePair& pair) const {
+        constexpr double kLong = 4096, kSteep = 1e-3;
+        const Vec3 of_planes = cross(sheets_[0].normal(pair.a), sheets_[1].normal(pair.b));
+        const bool is_short = length(line.q - line.p) < kLong * near_;
+        return {line, normalized_or_zero(is_short && length(of_planes) > kSteep ? of_planes
+                                                                                : line.q - line.p)};
+    }
+
+    /// Lines are on one curve where their ends meet. Curves that may be there only because of the shift
+    /// are dropped.
+    void find_curves() {
+        std::vector<SheetCrossing>& crossings = crossings_[0];
+        std::vector<Box3> ends;
+        for (const SheetCrossing& c : crossings)
+            for (const Vec3& end : {c.line.piece.p, c.line.piece.q})
+                ends.push_back({end, end});
+        const BoxIndex index(ends);
+        DisjointSets curves(crossings.size());
+        for (std::uint32_t i = 0; i < ends.size(); ++i)
+            index.for_each_overlap(grown(ends[i], near_),
+                                   [&](std::uint32_t j) { curves.unite(i / 2, j / 2); });
         std::map<std::uint32_t, Box3> extent;
-        for (const std::uint32_t contact : crossed) {
-            const SheetContact& c = contacts_[0][contact];
-            const Intersection common =
-                triangle_triangle_segment(sheets_[0].triangle(c.own), sheets_[1].triangle(c.other));
-            Box3& box = extent[curves_.root(contact)];
-            for (std::size_t k = 0; k < common.count; ++k)
-                extend(box, common.corners[k]);
+        for (std::uint32_t i = 0; i < crossings.size(); ++i) {
+            crossings[i].curve = curves.root(i);
+            Box3& box = extent[crossings[i].curve];
+            extend(box, crossings[i].line.piece.p), extend(box, crossings[i].line.piece.q);
         }
         for (const auto& [curve, box] : extent)
-            if (max_abs(box.upper - box.lower) > kTinyCurve * slit_width_)
-                ends_[curve] = {};
+            if (max_abs(box.upper - box.lower) > kTinyCurve * near_)
+                curves_.push_back(curve);
     }
 
-    /// Decides by curve whether one sheet ends near the other one, which is `surface`.
-    void decide(std::size_t side, const WorldSolid& surface) {
-        const Sheet& other = sheets_[1 - side];
-        Sheet own = sheets_[side];
-        cut_slits(own, border_crossings(contacts_[1 - side], other, own), options_.limit,
-                  slit_width_);
-        SheetParts parts(own, other, contacts_of_pieces(contacts_[side], own, other), surface,
-                         options_);
-        for (const SheetCrossing& c : parts.crossings()) {
-            const auto curve = ends_.find(curves_.root(c.contact));
-            if (curve == ends_.end())
-                continue;
-            std::optional<Proof>& known = curve->second[side];
-            known = both_hold(known.value_or(Proof::holds), parts.ends_at(c));
+    /// Divides both sheets, with borders up to a distance.
+    void divide(double reach) {
+        for (std::size_t side = 0; side < 2; ++side)
+            parts_[side] = std::make_unique<SheetParts>(
+                sheets_[side],
+                OtherSheet{sheets_[1 - side], borders_[1 - side], *surfaces_[1 - side]},
+                crossings_[side], reach + options_.rounding, near_, options_);
+    }
+
+    /// Decides whether along each curve one of the sheets goes at most `limit` beyond the other one.
+    Proof within_limit(double limit) {
+        Proof all = Proof::holds;
+        for (const std::uint32_t curve : curves_) {
+            Proof ends = parts_[0]->ends_within(curve, limit);
+            if (ends != Proof::holds)
+                ends = either_holds(ends, parts_[1]->ends_within(curve, limit));
+            all = both_hold(all, ends);
         }
-        if (const auto& beyond = parts.beyond();
-            beyond && (!beyond_ || beyond->length < beyond_->length))
-            beyond_ = beyond;
+        return all;
     }
 
-    std::array<Sheet, 2> sheets_;
-    std::array<std::vector<SheetContact>, 2> contacts_; ///< as each sheet has them
-    DisjointSets curves_;                               ///< of contacts
+    using ReachOfCurve = ReachBounds (SheetParts::*)(std::uint32_t);
+    [[nodiscard]] ReachBounds reach_by(ReachOfCurve reach) const {
+        ReachBounds most;
+        for (const std::uint32_t curve : curves_) {
+            ReachBounds of_second = ((*parts_[1]).*reach)(curve);
+            of_second.of_second = true;
+            most = greater(most, lesser(((*parts_[0]).*reach)(curve), of_second));
+        }
+        return most;
+    }
+
+    /// Finds the depth, which is between two lengths. The farthest point is often a corner.
+    void narrow(double low, double high) {
+        constexpr int kMostSteps = 60;
+        const double rounding = options_.rounding;
+        for (int i = 0; i < kMostSteps && high - low > kAccuracy * high + 4 * rounding; ++i) {
+            const double likely = reach_by(&SheetParts::likely_reach).low;
+            const double over = likely * (1 + kAccuracyAtCorner) + rounding,
+                         under = likely * (1 - kAccuracyAtCorner) - 2 * rounding;
+            const double next = low < over && over < high     ? over
+                                : low < under && under < high ? under
+                                                              : 0.5 * (low + high);
+            (within_limit(next) == Proof::holds ? high : low) = next;
+        }
+        if (low > 0 && reach_by(&SheetParts::reach_beyond).low < low)
+            within_limit(low);
+    }
+
+    const Vec3 origin_;
+    const double near_;
+    const std::array<Sheet, 2> sheets_;
+    const std::array<std::unique_ptr<const WorldSolid>, 2> surfaces_;
+    const std::array<SheetBorder, 2> borders_;
+    const double tolerance_;
     ReachSearch::Options options_;
-    double slit_width_ = 0;
-    /// By curve, for each sheet: whether it ends there; none if it has no crossing there.
-    std::map<std::uint32_t, std::array<std::optional<Proof>, 2>> ends_;
-    std::optional<SheetParts::Beyond> beyond_;
+    Box3 box_;
+    std::array<std::vector<SheetCrossing>, 2> crossings_; ///< as each sheet has them
+    std::vector<std::uint32_t> curves_;
+    std::array<std::unique_ptr<SheetParts>, 2> parts_;
 };
 
 } // namespace
 
-Proof sheets_cross_at_most(const WorldSolid& a, const WorldSolid& b,
-                           std::span<const Contact> contacts, double tolerance,
-                           std::optional<Vec3>* found) {
-    const SheetPair pair(a, b, contacts, tolerance);
-    if (found != nullptr && pair.beyond())
-        *found = pair.beyond()->point;
-    return pair.proof();
+SheetOverlap overlap_of_sheets(const WorldSolid& a, const WorldSolid& b,
+                               std::span<const Contact> contacts, double tolerance) {
+    return contacts.empty() ? SheetOverlap{} : SheetPair(a, b, contacts, tolerance).overlap();
 }
 
 Vec3 sheet_shift(const WorldSolid& a, const WorldSolid& b) {

@@ -4,27 +4,35 @@
 #include "rigid/solid/world_solid.h"
 #include "rigid/tolerance/reach_search.h"
 
-#include <optional>
 #include <span>
 
 namespace abut {
 
-/// Decides whether two surfaces that bound no solids cross only with their borders: along each curve
-/// in which they cross, one of them ends everywhere within `tolerance` of the other one.
+/// How far two surfaces that bound no solids go beyond each other.
 ///
-/// A surface ends there if the part of it on one side of the curve is near the other surface as a
-/// whole. That part is what can be reached from the curve without crossing the other surface.
-///
+/// A surface goes beyond the other one on either side of a line in which they cross: what can be reached
+/// from the line without crossing the other surface, and without leaving it over its border
+/// (SheetBorder). How far is the greatest distance of a point there from the other surface. On the other
+/// side it may go farther: the lesser one counts, and the greatest of it along the curve. Of the two
+/// surfaces, again the lesser one counts, and of all curves the greatest.
+struct SheetOverlap {
+    Proof within = Proof::holds; ///< whether the depth is at most the tolerance
+    double depth = 0;            ///< 0 if it is not more than the rounding
+    Vec3 point;        ///< of one surface, in the world, that is so far from the other one
+    bool of_b = false; ///< whether the point is on b
+};
+
 /// In          contacts: all. `tolerance` is positive. No vertex of one surface lies on the other one:
 ///             sheet_shift() moves b so that this is true.
-/// Out         found: if it fails, a point of one surface, in the world, that goes on beyond the other
-///             one farther than the tolerance.
-/// Accuracy    `fails`: along some curve both surfaces go on farther than `tolerance`. `open`: the
-///             budget of the search is used up.
-/// Cost        O(n log n) for surfaces of n triangles, and a search for each part beyond a curve.
-Proof sheets_cross_at_most(const WorldSolid& a, const WorldSolid& b,
-                           std::span<const Contact> contacts, double tolerance,
-                           std::optional<Vec3>* found = nullptr);
+/// Accuracy    `within`: `open` if the budget of a search is used up. A length that differs from the
+///             tolerance by less than the rounding counts as the tolerance. `depth`: reached at the point,
+///             and less than the rounding too small where the farthest point is a corner of a part; else
+///             at most 2^-12 of it too small. It is the same for any triangles of the same surfaces. If a
+///             budget is used up, it may be less.
+/// Cost        O(n log n) for surfaces of n triangles, and a search for each part beside a curve. All of
+///             that again for each factor of 8 between the tolerance and the depth.
+SheetOverlap overlap_of_sheets(const WorldSolid& a, const WorldSolid& b,
+                               std::span<const Contact> contacts, double tolerance);
 
 /// Returns a vector by which one of two surfaces is moved, so that their vertices and edges are in
 /// general position: 2^-40 of the pair's size, in a fixed direction.

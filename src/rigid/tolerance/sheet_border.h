@@ -1,0 +1,51 @@
+#pragma once
+
+#include "rigid/tolerance/box_index.h"
+#include "rigid/tolerance/sheet.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace abut {
+
+/// The border of a sheet, and where another sheet leaves it over its border: at the planes through the
+/// border, upright to the sheet, as far as the border is what is nearest there.
+class SheetBorder {
+public:
+    /// In      surface: that of the sheet, in the same frame. near: positions that are no farther
+    ///         apart are one.
+    SheetBorder(const Sheet& sheet, const WorldSolid& surface, double near);
+
+    /// A face of another sheet.
+    struct OtherFace {
+        const Triangle& corners;
+        const Vec3& normal;                     ///< unit
+        std::span<const DirectedPiece> crossed; ///< the lines in which it crosses this sheet
+    };
+    /// Returns the lines on a face along which it leaves this sheet, up to `reach` from the border.
+    ///
+    /// Accuracy    on each plane, the nearest point is asked for at some tens of places. The border
+    ///             may be what is nearest at less than an eighth of a plane's line, and not be found.
+    /// Cost        a search for each place, for each border edge in reach whose plane cuts the face.
+    [[nodiscard]] std::vector<DirectedPiece> ends_on(const OtherFace& face, double reach) const;
+
+private:
+    /// Lines on a face, by the border edge that is nearest there.
+    struct BorderLine {
+        std::uint32_t side = 0;
+        LinePiece line;
+    };
+    [[nodiscard]] bool is_nearest(const FaceSide& side, const Vec3& point, double reach) const;
+    void add_lines(std::uint32_t number, const LinePiece& whole, const OtherFace& face,
+                   double reach, std::vector<BorderLine>& lines) const;
+    void bridge(std::vector<BorderLine>& lines, double reach) const;
+    [[nodiscard]] bool are_neighbours(std::uint32_t i, std::uint32_t j) const;
+
+    const WorldSolid& surface_;
+    const double near_;
+    const std::vector<FaceSide> sides_;
+    const BoxIndex index_;
+};
+
+} // namespace abut
