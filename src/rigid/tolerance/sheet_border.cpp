@@ -1,5 +1,7 @@
 #include "rigid/tolerance/sheet_border.h"
 
+#include "geometry/triangle_triangle_distance.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -61,20 +63,9 @@ std::vector<double> places_on(const LinePiece& chord, const LinePiece& edge) {
     return places;
 }
 
-/// The place on a chord that is nearest to an edge, as a share of its length. The distance is convex.
+/// The place on a chord that is nearest to an edge, as a share of its length.
 double nearest_place(const LinePiece& chord, const LinePiece& edge) {
-    double from = 0, to = 1;
-    const auto distance = [&](double share) {
-        return distance_to_line(chord.p + share * (chord.q - chord.p), edge);
-    };
-    for (int i = 0; i < 60; ++i) {
-        const double third = (to - from) / 3;
-        if (distance(from + third) <= distance(to - third))
-            to -= third;
-        else
-            from += third;
-    }
-    return 0.5 * (from + to);
+    return nearest_on_segments(chord.q - chord.p, edge.q - edge.p, edge.p - chord.p).s;
 }
 
 /// Where a chord meets a line in the same face, as a share of its length.

@@ -76,23 +76,23 @@ const SheetParts::Face& SheetParts::cut(std::uint32_t number) {
              other_.border.ends_on({t, normal, face.lines}, border_reach_))
             face.lines.push_back(line);
         if (face.lines.empty())
-            pieces_.push_back({number, {t[0], t[1], t[2]}, kNone});
+            add_piece(number, {t[0], t[1], t[2]});
         else
             for (auto& polygon : pieces_of_face(t, normal, face.lines, near_))
-                pieces_.push_back({number, std::move(polygon), kNone});
+                add_piece(number, std::move(polygon));
     }
     face.last = static_cast<std::uint32_t>(pieces_.size());
     return face;
 }
 
-std::vector<FaceSide> SheetParts::sides_of(std::uint32_t piece) const {
-    const auto& [face, polygon, part] = pieces_[piece];
+void SheetParts::add_piece(std::uint32_t face, std::vector<Vec3> polygon) {
+    const auto piece = static_cast<std::uint32_t>(pieces_.size());
     std::vector<FaceSide> sides;
     for (std::size_t k = 0; k < polygon.size(); ++k) {
         const LinePiece line{polygon[k], polygon[(k + 1) % polygon.size()]};
         sides.push_back({line, left_of(line, own_.normal(face)), piece});
     }
-    return sides;
+    pieces_.push_back({face, std::move(polygon), kNone, std::move(sides)});
 }
 
 /// Calls visit(face) for a face, for those that share an edge with it, and for those with a loose edge in
@@ -127,10 +127,38 @@ std::vector<LineSpan> SheetParts::covers_of(const LinePiece& common, std::uint32
     return covers;
 }
 
+/// Returns whether two pieces are whole faces with a common edge that no other face shares and no line
+/// is near. Most pieces are.
+bool SheetParts::share_free_edge(std::uint32_t p, std::uint32_t q) const {
+    const std::uint32_t of_p = pieces_[p].face, of_q = pieces_[q].face;
+    if (of_p == of_q || !faces_[of_p].lines.empty() || !faces_[of_q].lines.empty())
+        return false;
+    const auto is_free = [&](const LinePiece& edge) {
+        const auto is_at = [&](std::uint32_t face) {
+            const Triangle& t = own_.triangle(face);
+            return face != of_p && face != of_q && std::ranges::count(t, edge.p) > 0 &&
+                   std::ranges::count(t, edge.q) > 0;
+        };
+        bool is_near_line = false;
+        index_.for_each_overlap(grown(box_of(edge), 3 * near_),
+                                [&](std::uint32_t) { is_near_line = true; });
+        return !is_near_line && length(edge.q - edge.p) > 4 * near_ &&
+               std::ranges::none_of(own_.neighbours(of_p), is_at) &&
+               std::ranges::none_of(own_.neighbours(of_q), is_at);
+    };
+    for (const FaceSide& side : sides_of(p))
+        for (const FaceSide& other : sides_of(q))
+            if (side.line.p == other.line.q && side.line.q == other.line.p)
+                return is_free(side.line);
+    return false;
+}
+
 /// Returns whether two pieces share more than `near` of a side where no line runs.
 bool SheetParts::are_joined(std::uint32_t p, std::uint32_t q) {
+    if (share_free_edge(p, q))
+        return true;
     const std::uint32_t of_p = pieces_[p].face, of_q = pieces_[q].face;
-    const std::vector<FaceSide> others = sides_of(q);
+    const std::span<const FaceSide> others = sides_of(q);
     for (const FaceSide& side : sides_of(p)) {
         const Vec3 along = normalized_or_zero(side.line.q - side.line.p);
         const Box3 box = grown(box_of(side.line), near_);
@@ -156,14 +184,10 @@ bool SheetParts::are_joined(std::uint32_t p, std::uint32_t q) {
 /// Returns whether the piece at a side is thicker than `near` at a point close to the side. If not, and it
 /// narrows there, its other sides are as close.
 bool SheetParts::goes_on(const FaceSide& side, const Vec3& point) const {
-    const auto& [face, polygon, part] = pieces_[side.owner];
     const Vec3 inside = point + 1.5 * near_ * side.inward;
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-        const LinePiece line{polygon[k], polygon[(k + 1) % polygon.size()]};
-        if (dot(inside - line.p, left_of(line, own_.normal(face))) < 0)
-            return false;
-    }
-    return true;
+    return std::ranges::all_of(sides_of(side.owner), [&](const FaceSide& each) {
+        return dot(inside - each.line.p, each.inward) >= 0;
+    });
 }
 
 /// The faces that may have a side along a crossing.
@@ -245,8 +269,7 @@ void SheetParts::reach(std::uint32_t piece, std::uint32_t number) {
     pieces_[piece].part = number;
     double farthest = 0;
     for (const Vec3& corner : pieces_[piece].polygon) {
-        const double distance =
-            other_.surface.nearest(corner, WorldSolid::NearestSearch{}).distance;
+        const double distance = other_.distances.of(corner);
         farthest = std::max(farthest, distance);
         if (distance > part.reach.low)
             part.reach.low = distance, part.reach.point = corner;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "rigid/tolerance/point_order.h"
 #include "rigid/tolerance/reach_search.h"
 #include "rigid/tolerance/sheet.h"
 #include "rigid/tolerance/sheet_border.h"
@@ -30,11 +31,31 @@ struct ReachBounds {
 ReachBounds lesser(const ReachBounds& a, const ReachBounds& b);
 ReachBounds greater(const ReachBounds& a, const ReachBounds& b);
 
+/// The distances of points from a surface. A corner of several pieces is measured once.
+class CornerDistances {
+public:
+    explicit CornerDistances(const WorldSolid& surface) : surface_(surface) {}
+    double of(const Vec3& corner) {
+        const auto [at, is_new] = known_.try_emplace(corner, 0.0);
+        if (is_new)
+            at->second = surface_.nearest(corner, WorldSolid::NearestSearch{}).distance;
+        return at->second;
+    }
+
+private:
+    struct Before {
+        bool operator()(const Vec3& p, const Vec3& q) const { return is_before(p, q); }
+    };
+    const WorldSolid& surface_;
+    std::map<Vec3, double, Before> known_;
+};
+
 /// Another sheet, as a sheet is divided along it.
 struct OtherSheet {
     const Sheet& sheet;
     const SheetBorder& border;
-    const WorldSolid& surface; ///< of the sheet, in its frame
+    const WorldSolid& surface;  ///< of the sheet, in its frame
+    CornerDistances& distances; ///< from the surface
 };
 
 /// The parts into which a sheet falls along the lines in which it crosses another one, and where it
@@ -63,6 +84,7 @@ private:
         std::uint32_t face = 0;
         std::vector<Vec3> polygon;
         std::uint32_t part = 0; ///< if it is reached; else kNone
+        std::vector<FaceSide> sides;
     };
     struct Face {
         bool is_cut = false;
@@ -88,10 +110,15 @@ private:
     using Choose = ReachBounds (*)(const ReachBounds&);
 
     const Face& cut(std::uint32_t face);
-    [[nodiscard]] std::vector<FaceSide> sides_of(std::uint32_t piece) const;
+    void add_piece(std::uint32_t face, std::vector<Vec3> polygon);
+    /// The view stays valid when pieces are added.
+    [[nodiscard]] std::span<const FaceSide> sides_of(std::uint32_t piece) const {
+        return pieces_[piece].sides;
+    }
     template <typename Visit>
     void for_each_face_at(std::uint32_t face, const Box3& box, const Visit& visit);
     [[nodiscard]] std::vector<LineSpan> covers_of(const LinePiece& common, std::uint32_t face);
+    [[nodiscard]] bool share_free_edge(std::uint32_t p, std::uint32_t q) const;
     [[nodiscard]] bool are_joined(std::uint32_t p, std::uint32_t q);
     [[nodiscard]] bool goes_on(const FaceSide& side, const Vec3& point) const;
     void find_sides(const SheetCrossing& crossing);

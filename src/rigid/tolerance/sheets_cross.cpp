@@ -43,6 +43,7 @@ public:
           surfaces_{a.seen_from(origin_), b.seen_from(origin_)},
           borders_{SheetBorder(sheets_[0], *surfaces_[0], near_),
                    SheetBorder(sheets_[1], *surfaces_[1], near_)},
+          distances_{CornerDistances(*surfaces_[0]), CornerDistances(*surfaces_[1])},
           tolerance_(tolerance) {
         options_ = {.rounding = depth_rounding(a, b) + length(sheet_shift(a, b)),
                     .both_sides = true,
@@ -131,7 +132,8 @@ private:
         for (std::size_t side = 0; side < 2; ++side)
             parts_[side] = std::make_unique<SheetParts>(
                 sheets_[side],
-                OtherSheet{sheets_[1 - side], borders_[1 - side], *surfaces_[1 - side]},
+                OtherSheet{sheets_[1 - side], borders_[1 - side], *surfaces_[1 - side],
+                           distances_[1 - side]},
                 crossings_[side], reach + options_.rounding, near_, options_);
     }
 
@@ -180,6 +182,7 @@ private:
     const std::array<Sheet, 2> sheets_;
     const std::array<std::unique_ptr<const WorldSolid>, 2> surfaces_;
     const std::array<SheetBorder, 2> borders_;
+    std::array<CornerDistances, 2> distances_; ///< from each surface
     const double tolerance_;
     ReachSearch::Options options_;
     Box3 box_;
