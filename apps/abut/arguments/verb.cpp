@@ -24,7 +24,7 @@ std::vector<std::string> choices_of(const std::string& type) {
     return words;
 }
 
-/// Whether a text has a word, and not only as a part of another one.
+/// Returns whether a text has a word, and not only as a part of another one.
 bool has_word(const std::string& text, const std::string& word) {
     const auto is_of_word = [&](std::size_t at) {
         return at < text.size() &&

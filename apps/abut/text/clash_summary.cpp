@@ -51,7 +51,7 @@ public:
             parts_.emplace(named.model, named.id);
     }
 
-    /// Whether a part is among those that the report names.
+    /// Returns whether a part is among those that the report names.
     [[nodiscard]] bool has(const std::vector<Scene>& models, const Clash& clash,
                            std::size_t side) const {
         const std::uint32_t model = clash.model.at(side);

@@ -100,7 +100,7 @@ std::string problems_text(const ClashReport& report, const std::vector<std::uint
     return text + "\n";
 }
 
-/// Whether a rule, or a cell of a matrix, has a clearance of its own.
+/// Returns whether a rule, or a cell of a matrix, has a clearance of its own.
 bool rules_have_clearances(const ClashOptions& options) {
     const auto has_one = [](const ClashRule& rule) { return rule.clearance.has_value(); };
     return std::ranges::any_of(options.rules, has_one) ||

@@ -34,7 +34,7 @@ double extent_of(const Triangle& t) {
     return std::max({max_abs(t[1] - t[0]), max_abs(t[2] - t[1]), max_abs(t[0] - t[2])});
 }
 
-/// Whether all corners of a triangle are as high as a plane.
+/// Returns whether all corners of a triangle are as high as a plane.
 bool lies_in_plane(const Triangle& t, const Vec3& point, const Vec3& normal, double error) {
     return normal != Vec3{} && std::all_of(t.begin(), t.end(), [&](const Vec3& corner) {
                return std::abs(dot(corner - point, normal)) <= error;

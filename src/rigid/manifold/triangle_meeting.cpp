@@ -162,7 +162,7 @@ private:
         add_direction(m, fa, fb);
     }
 
-    /// Whether a triangle lies on one side of a face's plane, to rounding.
+    /// Returns whether a triangle lies on one side of a face's plane, to rounding.
     [[nodiscard]] bool hardly_passes(const Triangle& t, const MeetingFace& face) const {
         const auto heights = heights_over(face.unit_normal, face.corners[0], t);
         const auto [low, high] = std::minmax({heights[0], heights[1], heights[2]});

@@ -68,7 +68,9 @@ public:
     }
 
 private:
-    /// Adds a solid if some triangles bound one. In          mixed: parts may face different ways.
+    /// Adds a solid if some triangles bound one.
+    ///
+    /// In          mixed: parts may face different ways.
     bool take(const Numbers& set, bool mixed) {
         std::optional<SetWinding> found = winding_of(mesh_, topology_, set);
         if (!found || (found->is_mixed && !mixed))
@@ -150,7 +152,7 @@ private:
                     weight = static_cast<std::int8_t>(-weight);
     }
 
-    /// Whether the largest faces of a solid lie inside another one, with both their sides.
+    /// Returns whether the largest faces of a solid lie inside another one, with both their sides.
     [[nodiscard]] bool is_around(const OpenSolid& outer, const OpenSolid& inner) const {
         return std::ranges::all_of(
             largest_triangles(mesh_, inner.triangles, kProbes), [&](std::uint32_t t) {
