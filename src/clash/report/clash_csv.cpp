@@ -4,8 +4,6 @@
 #include "clash/report/csv_cells.h"
 #include "core/atomic_file.h"
 
-#include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <string_view>
 
@@ -30,17 +28,11 @@ void append_cells(TextBuffer& out, const Vec3& v, double rounding) {
 /// Appends the lengths of a clash, without digits that the rounding of its parts has made, or double
 /// precision.
 void append_lengths(TextBuffer& out, const Clash& clash) {
-    constexpr double kRounding = 0x1p-49; // of a number: some roundings of doubles
-    double reach = 0;
-    for (const Vec3& p : {clash.point_a, clash.point_b})
-        for (const double x : {p.x, p.y, p.z})
-            reach = std::max(reach, std::abs(x));
-    const double rounding = std::max(clash.rounding, kRounding * reach);
-    append_rounded_cell(out, told_distance(clash),
-                        std::max(clash.rounding, kRounding * std::abs(clash.distance)));
-    append_cells(out, clash.point_a, rounding);
-    append_cells(out, clash.point_b, rounding);
-    append_cells(out, clash.direction, kRounding);
+    const ClashRounding rounding = rounding_of_numbers(clash);
+    append_rounded_cell(out, told_distance(clash), rounding.distance);
+    append_cells(out, clash.point_a, rounding.points);
+    append_cells(out, clash.point_b, rounding.points);
+    append_cells(out, clash.direction, rounding.direction);
 }
 
 void append_row(TextBuffer& out, const Clash& clash, const std::vector<Scene>& models,

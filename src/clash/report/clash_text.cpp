@@ -89,6 +89,38 @@ double told_distance(const Clash& clash) {
     return std::abs(clash.distance) <= std::max(clash.rounding, kPicometre) ? 0 : clash.distance;
 }
 
+ClashRounding rounding_of_numbers(const Clash& clash) {
+    constexpr double kRounding = 0x1p-49; // of a number: some roundings of doubles
+    double reach = 0;
+    for (const Vec3& p : {clash.point_a, clash.point_b})
+        for (const double x : {p.x, p.y, p.z})
+            reach = std::max(reach, std::abs(x));
+    return {std::max(clash.rounding, kRounding * std::abs(clash.distance)),
+            std::max(clash.rounding, kRounding * reach), kRounding};
+}
+
+std::string rounded_text(double value, double rounding) {
+    constexpr double kLeast = 1e-30, kLongest = 1e15; // digits of numbers beyond mean nothing
+    if (!(rounding > kLeast) || !(std::abs(value) < kLongest))
+        return fmt::format("{}", value);
+    const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(rounding))));
+    std::string text = fmt::format("{:.{}f}", value, decimals);
+    if (decimals > 0)
+        text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.')
+        text.pop_back();
+    return text == "-0" ? "0" : text;
+}
+
+double rounded(double value, double rounding) {
+    if (!std::isfinite(value))
+        return value;
+    const std::string text = rounded_text(value, rounding);
+    double number = value;
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    return number;
+}
+
 const Part& part_of(const Clash& clash, int side, const std::vector<Scene>& models) {
     const auto s = static_cast<std::size_t>(side);
     if (clash.model[s] >= models.size() || clash.part[s] >= models[clash.model[s]].parts.size())

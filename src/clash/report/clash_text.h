@@ -21,4 +21,17 @@ std::optional<ClashKind> clash_kind_of(std::string_view text);
 /// Errors      Error{bad_argument} if the clash refers to a model or a part that does not exist.
 const Part& part_of(const Clash& clash, int side, const std::vector<Scene>& models);
 
+/// How far the numbers of a clash may be off: by the rounding of its parts, or by that of doubles.
+struct ClashRounding {
+    double distance = 0, points = 0, direction = 0;
+};
+ClashRounding rounding_of_numbers(const Clash& clash);
+
+/// Returns a number without digits that rounding has made: rounded to the largest power of ten that is at
+/// most `rounding`. The text has no trailing zeros, and no exponent unless rounding is 0 or the number is
+/// beyond 1e15.
+std::string rounded_text(double value, double rounding);
+/// The number that rounded_text() writes.
+double rounded(double value, double rounding);
+
 } // namespace abut

@@ -53,17 +53,10 @@ void append_cell(TextBuffer& out, double value) {
 }
 
 void append_rounded_cell(TextBuffer& out, double value, double rounding) {
-    constexpr double kLeast = 1e-30, kLongest = 1e15; // digits of numbers beyond mean nothing
-    if (!(rounding > kLeast) || !(std::abs(value) < kLongest))
+    if (!std::isfinite(value))
         return append_cell(out, value);
-    const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(rounding))));
-    std::string text = fmt::format("{:.{}f}", value, decimals);
-    if (decimals > 0)
-        text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.')
-        text.pop_back();
     out.push_back(',');
-    append(out, text == "-0" ? "0" : text);
+    append(out, rounded_text(value, rounding));
 }
 
 } // namespace abut

@@ -24,9 +24,7 @@ inline void append(TextBuffer& out, std::string_view text) {
 void append_cell(TextBuffer& out, std::string_view raw);
 /// Appends a comma and the number; a number that is not finite leaves its cell empty.
 void append_cell(TextBuffer& out, double value);
-/// As above, without digits that rounding has made: the number is rounded to the largest power of ten
-/// that is at most `rounding`. The cell has no trailing zeros, and no exponent unless rounding is 0 or
-/// the number is beyond 1e15.
+/// As above, the number as rounded_text() writes it.
 void append_rounded_cell(TextBuffer& out, double value, double rounding);
 
 } // namespace abut

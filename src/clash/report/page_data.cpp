@@ -43,6 +43,10 @@ void write_texts(JsonLines& out, std::string_view name, const Table& table) {
     write_column(out, name, table.values(), [](const std::string* text) { return *text; });
 }
 
+ordered_json rounded_point(const Vec3& v, double rounding) {
+    return json_point({rounded(v.x, rounding), rounded(v.y, rounding), rounded(v.z, rounding)});
+}
+
 /// The columns of a page.
 class PageColumns {
 public:
@@ -109,12 +113,23 @@ private:
         side("a", 0);
         side("b", 1);
         out.member("rule", rule_index_);
-        column("distance", [](const Clash& clash) { return json_number(told_distance(clash)); });
+        // The page exports the same numbers as write_clash_csv().
+        column("distance", [](const Clash& clash) {
+            return json_number(rounded(told_distance(clash), rounding_of_numbers(clash).distance));
+        });
         column("triangle_pairs", [](const Clash& clash) { return clash.triangle_pairs; });
-        column("point_a", [](const Clash& clash) { return json_point(clash.point_a); });
-        column("point_b", [](const Clash& clash) { return json_point(clash.point_b); });
-        column("direction", [](const Clash& clash) { return json_point(clash.direction); });
-        column("volume", [](const Clash& clash) { return json_number(clash.volume); });
+        column("point_a", [](const Clash& clash) {
+            return rounded_point(clash.point_a, rounding_of_numbers(clash).points);
+        });
+        column("point_b", [](const Clash& clash) {
+            return rounded_point(clash.point_b, rounding_of_numbers(clash).points);
+        });
+        column("direction", [](const Clash& clash) {
+            return rounded_point(clash.direction, rounding_of_numbers(clash).direction);
+        });
+        column("volume", [](const Clash& clash) {
+            return json_number(rounded(clash.volume, clash.volume_error));
+        });
         column("volume_error", [](const Clash& clash) { return json_number(clash.volume_error); });
         column("neighbours", [](const Clash& clash) {
             return clash.neighbours ? to_string(*clash.neighbours) : "";
