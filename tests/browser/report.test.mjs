@@ -205,7 +205,10 @@ describe('10,000 clashes', () => {
     };
     assert.equal(await copied('Copy clash id'), clash.id);
     assert.equal(await copied('Copy id of B'), clash.b);
-    assert.deepEqual((await copied('Copy Point on A')).split(' ').map(Number), clash.point_a);
+    // The page has the numbers of report.csv, without digits that rounding has made.
+    const point = (await copied('Copy Point on A')).split(' ').map(Number);
+    assert.equal(point.length, 3);
+    assert.ok(point.every((x, k) => Math.abs(x - clash.point_a[k]) < 1e-12), `${point} is ${clash.point_a}`);
     await page.keyboard.press('Escape');
     assert.ok(await page.isHidden('#detail'));
   });
