@@ -159,6 +159,7 @@ std::vector<std::uint32_t> largest_of_patches(const Mesh& mesh,
     std::erase_if(of_patch, [](const auto& p) { return p.first == 0; });
     std::sort(of_patch.begin(), of_patch.end());
     std::vector<std::uint32_t> result;
+    result.reserve(of_patch.size());
     for (const auto& [area, triangle] : of_patch)
         result.push_back(triangle);
     return result;

@@ -156,7 +156,7 @@ void SheetBorder::bridge(std::vector<BorderLine>& lines, double reach) const {
                 for (const Vec3& q : {other.p, other.q})
                     if (length_sq(q - p) < length_sq(gap.q - gap.p))
                         gap = {p, q};
-            const auto is_between = [&](double share) {
+            const auto is_between = [&, side = side, other_side = other_side](double share) {
                 const Vec3 at = gap.p + share * (gap.q - gap.p);
                 return is_nearest(sides_[side], at, reach) ||
                        is_nearest(sides_[other_side], at, reach);

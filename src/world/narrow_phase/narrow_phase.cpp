@@ -2,6 +2,7 @@
 
 #include <abut/shape_queries.h>
 
+#include "convex/body/convex_data.h"
 #include "convex/support/support_gap.h"
 #include "math/transform.h"
 #include "rigid/model/model_data.h"
