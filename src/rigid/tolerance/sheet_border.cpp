@@ -12,6 +12,7 @@ namespace {
 
 std::vector<Box3> boxes_of_sides(const std::vector<FaceSide>& sides) {
     std::vector<Box3> boxes;
+    boxes.reserve(sides.size());
     for (const FaceSide& side : sides)
         boxes.push_back(box_of(side.line));
     return boxes;
@@ -128,6 +129,7 @@ std::vector<DirectedPiece> SheetBorder::ends_on(const OtherFace& face, double re
     });
     bridge(lines, reach);
     std::vector<DirectedPiece> ends;
+    ends.reserve(lines.size());
     for (const BorderLine& line : lines)
         ends.push_back({line.line, normalized_or_zero(line.line.q - line.line.p)});
     return ends;
@@ -182,6 +184,7 @@ void SheetBorder::add_lines(std::uint32_t number, const LinePiece& whole, const 
             places.push_back(*place);
     std::sort(places.begin(), places.end());
     std::vector<bool> is_part;
+    is_part.reserve(places.size());
     for (const double place : places)
         is_part.push_back(is_nearest(side, at(place), reach));
     const auto boundary = [&](double in, double out) {
