@@ -42,7 +42,7 @@ struct RegionSums {
         if (m.is_slight || m.kind != TriangleContact::none)
             in_touch = &m;
     }
-    /// Whether the features tell about one direction.
+    /// Returns whether all features tell about the same direction.
     [[nodiscard]] bool agrees() const {
         constexpr double kAgreeing = 1 - 0x1p-10;
         return across_count > 0 && abut::length(across) >= kAgreeing * across_count;

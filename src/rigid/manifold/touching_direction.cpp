@@ -41,11 +41,13 @@ bool lies_in_plane(const Triangle& t, const Vec3& point, const Vec3& normal, dou
            });
 }
 
-/// The area that two triangles share, seen along a unit vector.
+using Outline = decltype(TouchingDirection::outline);
+
+/// The part of b's triangle over a's, seen along a unit vector.
 ///
 /// Source      [Sutherland, Hodgman 1974]
-double common_area(const Triangle& ta, const Triangle& tb, const Vec3& along) {
-    boost::container::static_vector<Vec3, 8> outline(tb.begin(), tb.end()), kept;
+Outline common_outline(const Triangle& ta, const Triangle& tb, const Vec3& along) {
+    Outline outline(tb.begin(), tb.end()), kept;
     const double turn = dot(cross(ta[1] - ta[0], ta[2] - ta[0]), along) < 0 ? -1 : 1;
     for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 &from = ta[k], inward = turn * cross(along, ta[(k + 1) % 3] - from);
@@ -60,6 +62,10 @@ double common_area(const Triangle& ta, const Triangle& tb, const Vec3& along) {
         }
         outline = kept;
     }
+    return outline;
+}
+
+double area_of(const Outline& outline, const Vec3& along) {
     double area = 0;
     for (std::size_t i = 2; i < outline.size(); ++i)
         area += 0.5 * dot(cross(outline[i - 1] - outline[0], outline[i] - outline[0]), along);
@@ -102,10 +108,10 @@ public:
         const double size = length(v);
         for (Sum& each : sums_)
             if (dot(each.sum, v) > kSameDirection * length(each.sum) * size) {
-                each.sum = each.sum + v, ++each.count;
+                each.sum = each.sum + v;
                 return;
             }
-        sums_.push_back({v, 1});
+        sums_.push_back({v});
     }
     [[nodiscard]] bool empty() const { return sums_.empty(); }
     /// The direction of the sum for which a function is largest.
@@ -122,7 +128,6 @@ public:
 private:
     struct Sum {
         Vec3 sum;
-        int count = 0;
     };
     std::vector<Sum> sums_;
 };
@@ -184,7 +189,7 @@ public:
         const Vec3 between = normalized_or_zero(b_.model().middle() - a_.model().middle());
         const auto parts_best = [&](const Vec3& v) {
             const Vec3 n = normalized_or_zero(v);
-            // Of directions that part them as well, the one that leads from middle to middle.
+            // Several directions may part them: the one that leads from middle to middle is taken.
             return dot(n, between) - 4 * reach_beyond(n);
         };
         if (across.empty())
@@ -251,7 +256,8 @@ private:
 bool has_inverse(const Transform& t) {
     const auto& m = t.m;
     const Vec3 x{m[0], m[1], m[2]}, y{m[3], m[4], m[5]}, z{m[6], m[7], m[8]};
-    return std::abs(dot(cross(x, y), z)) > 0x1p-40 * length(x) * length(y) * length(z);
+    constexpr double kLeastVolume = 0x1p-40; // of the axes, relative to that of perpendicular ones
+    return std::abs(dot(cross(x, y), z)) > kLeastVolume * length(x) * length(y) * length(z);
 }
 
 } // namespace
@@ -266,13 +272,18 @@ TouchingDirection touching_direction(const TrianglesInTouch& triangles, double r
     TouchingDirection found;
     const bool in_a = lies_in_plane(tb, ta[0], na, kFlat * rounding),
                in_b = lies_in_plane(ta, tb[0], nb, kFlat * rounding);
-    const bool may_share = dot(na, nb) < 0 || !(triangles.is_oriented_a && triangles.is_oriented_b);
-    if ((in_a || in_b) && may_share) {
+    found.in_one_plane = in_a || in_b;
+    if (found.in_one_plane) {
         const Vec3& normal = in_a ? na : nb;
-        const double area = common_area(ta, tb, normal);
         const double least = 0.5 * std::min(length(cross(ta[1] - ta[0], ta[2] - ta[0])),
                                             length(cross(tb[1] - tb[0], tb[2] - tb[0])));
-        if (area > kClearOfParallel * least) {
+        const Outline outline = common_outline(ta, tb, normal);
+        const double area = area_of(outline, normal);
+        if (area > kClearOfParallel * least)
+            found.outline = outline;
+        const bool may_share =
+            dot(na, nb) < 0 || !(triangles.is_oriented_a && triangles.is_oriented_b);
+        if (!found.outline.empty() && may_share) {
             found.across = turned_to_b(normal, triangles, rounding);
             found.area = area * found.across;
             return found;

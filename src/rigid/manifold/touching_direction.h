@@ -5,6 +5,7 @@
 #include "math/vector.h"
 #include "rigid/manifold/manifold_side.h"
 
+#include <boost/container/static_vector.hpp>
 #include <optional>
 
 // Directions of surfaces that touch, or are apart by little more than rounding. The vector between
@@ -21,13 +22,16 @@ struct TrianglesInTouch {
     bool is_oriented_a = true, is_oriented_b = true;
 };
 
-/// What two triangles tell about the direction from a to b.
+/// A direction from a to b, as two triangles tell it, and what they share.
 struct TouchingDirection {
     /// Faces that lie on each other: the area that they share, times the unit normal. Else zero.
     Vec3 area;
     /// The unit vector across the features that touch: a face, or two edges that cross. Zero if these
     /// leave it open: a vertex at a vertex or an edge, parallel edges.
     Vec3 across;
+    bool in_one_plane = false; ///< to rounding
+    /// The corners of the polygon that triangles in one plane share; none if they share no area.
+    boost::container::static_vector<Vec3, 6> outline;
 };
 
 /// In          rounding: bounds that of a coordinate. The triangles touch, give or take some of it.

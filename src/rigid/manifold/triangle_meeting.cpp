@@ -68,14 +68,20 @@ std::array<double, 3> heights_over(const Vec3& normal, const Vec3& point, const 
 }
 
 /// The segment that two crossing triangles share, along n_a x n_b. In double precision: a segment
-/// that rounding hides is that of the exact construction.
+/// that rounding hides is that of the exact construction, or the point at which they are nearest.
 CommonSegment common_segment(const Triangle& ta, const Vec3& n_a, const Triangle& tb,
                              const Vec3& n_b) {
     const auto on_a = cut_of_plane(ta, heights_over(n_b, tb[0], ta)),
                on_b = cut_of_plane(tb, heights_over(n_a, ta[0], tb));
+    const auto nearest = [&] {
+        const Vec3 point = triangle_triangle_distance(ta, tb).a;
+        return CommonSegment{point, point};
+    };
     if (!on_a || !on_b) {
         const Intersection common = triangle_triangle_segment(ta, tb);
-        return {common.corners[0], common.corners[common.count > 1 ? 1 : 0]};
+        return common.count == 0
+                   ? nearest()
+                   : CommonSegment{common.corners[0], common.corners[common.count > 1 ? 1 : 0]};
     }
     const Vec3 along = cross(n_a, n_b);
     CommonSegment p = *on_a, q = *on_b;
@@ -85,8 +91,7 @@ CommonSegment common_segment(const Triangle& ta, const Vec3& n_a, const Triangle
         std::swap(q.from, q.to);
     const CommonSegment common{dot(along, q.from - p.from) > 0 ? q.from : p.from,
                                dot(along, q.to - p.to) < 0 ? q.to : p.to};
-    return dot(along, common.to - common.from) > 0 ? common
-                                                   : CommonSegment{common.from, common.from};
+    return dot(along, common.to - common.from) > 0 ? common : nearest();
 }
 
 /// The faces that some of the last meetings had, by triangle.
@@ -173,20 +178,30 @@ private:
     void add_touching(TriangleMeeting& m, const CommonSegment& s, const MeetingFace& fa,
                       const MeetingFace& fb) {
         m.kind = TriangleContact::touch;
-        meetings_.points.push_back({s.from, s.from, name_of(s.from, m.pair, 0, fa, fb)});
-        if (s.to != s.from)
-            meetings_.points.push_back({s.to, s.to, name_of(s.to, m.pair, 1, fa, fb)});
-        m.to = m.from;
-        add_direction(m, fa, fb);
+        const TouchingDirection found = add_direction(m, fa, fb);
+        boost::container::static_vector<Vec3, 6> corners = found.outline;
+        // The line in which planes cross that are one to rounding may be anywhere.
+        if (corners.empty() && found.in_one_plane)
+            corners.push_back(triangle_triangle_distance(fa.corners, fb.corners).a);
+        if (corners.empty()) {
+            corners.push_back(s.from);
+            if (s.to != s.from)
+                corners.push_back(s.to);
+        }
+        m.from = m.to = corners[0];
+        for (std::uint32_t k = 0; k < corners.size(); ++k)
+            meetings_.points.push_back(
+                {corners[k], corners[k], name_of(corners[k], m.pair, k, fa, fb)});
     }
 
-    void add_direction(TriangleMeeting& m, const MeetingFace& fa, const MeetingFace& fb,
-                       double gap = 0) const {
+    TouchingDirection add_direction(TriangleMeeting& m, const MeetingFace& fa,
+                                    const MeetingFace& fb, double gap = 0) const {
         const TouchingDirection found =
             touching_direction({fa.corners, fb.corners, fa.unit_normal, fb.unit_normal,
                                 a_.is_oriented(), b_.is_oriented()},
                                rounding_ + 0.125 * gap);
         m.common_area = found.area, m.across = found.across;
+        return found;
     }
 
     /// A vertex that lies at the point names it; else the two triangles do.

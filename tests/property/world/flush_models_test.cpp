@@ -111,7 +111,7 @@ double shared_extent(double half_a, double half_b, double x) {
     return std::min(half_a, x + half_b) - std::max(-half_a, x - half_b);
 }
 
-/// Whether what stands on a face, seen along one axis, does so clear of the border.
+/// Returns whether what stands on a face, seen along one axis, does so clear of the border.
 bool stands(double reach, double half_a, double half_b, double x) {
     return reach == 0 ? std::abs(x) < 0.95 * half_a
                       : shared_extent(half_a, reach * half_b, x) > 0.02 * half_a;
@@ -235,6 +235,47 @@ TEST_F(FlushModels, TellOneContactAndTheNormalOfTheFace) {
     EXPECT_LE(off_normal, rounds / 200);
     EXPECT_GT(met, count / 10);
     EXPECT_GT(apart, count / 10);
+}
+
+/// Boxes with a common face, both turned in doubles: their triangles cross, touch or miss each other as
+/// rounding has it.
+TEST_F(FlushModels, PointsOfTurnedBoxesLieOnBoth) {
+    constexpr std::array kHalves{0.25, 0.5, 0.75, 1.0, 1.5};
+    constexpr double kError = 1e-12;
+    int met = 0;
+    const int rounds = many(300);
+    for (int round = 0; round < rounds; ++round) {
+        SCOPED_TRACE(round);
+        const Vec3 a{any(kHalves), any(kHalves), any(kHalves)},
+            b{any(kHalves), any(kHalves), any(kHalves)};
+        const Vec3 reach = a + b;
+        Vec3 from_a{random_.uniform(-0.5, 0.5) * reach.x, random_.uniform(-0.5, 0.5) * reach.y,
+                    random_.uniform(-0.5, 0.5) * reach.z};
+        const int axis = random_.integer(0, 2);
+        Vec3 normal{axis == 0 ? 1. : 0., axis == 1 ? 1. : 0., axis == 2 ? 1. : 0.};
+        from_a = from_a + (dot(reach, normal) - dot(from_a, normal)) * normal;
+        const Pose at_a{{}, turn_around(random_.direction(), random_.uniform(0, 6))};
+        const Pose at_b = placed_in(at_a, from_a, {1, 0, 0, 0});
+        World world;
+        add(world, Model(box_mesh(-a, a)), at_a);
+        add(world, Model(box_mesh(-b, b)), at_b);
+        const Transform a_from_world = inverse(Transform(at_a));
+        normal = apply_linear(Transform(at_a), normal);
+        for (const ContactManifold& each : world.contact_manifolds()) {
+            ++met;
+            ASSERT_LE(length(each.normal - normal), kError);
+            for (std::uint32_t i = 0; i < each.count; ++i) {
+                const Vec3 on_a = apply(a_from_world, each.points[i].point_a),
+                           on_b = apply(a_from_world, each.points[i].point_b) - from_a;
+                for (const auto& [p, half] : {std::pair(on_a, a), std::pair(on_b, b)}) {
+                    ASSERT_LE(std::abs(p.x), half.x + kError);
+                    ASSERT_LE(std::abs(p.y), half.y + kError);
+                    ASSERT_LE(std::abs(p.z), half.z + kError);
+                }
+            }
+        }
+    }
+    EXPECT_GT(met, rounds / 4);
 }
 
 /// A prism with an L for its base, whose inner corner is the z axis.
