@@ -46,7 +46,7 @@ std::string kind_column(ClashKind kind) {
 /// Tells which parts of a report bound no solid.
 class SurfaceParts {
 public:
-    explicit SurfaceParts(const ClashReport& report) {
+    explicit SurfaceParts(const ClashReport& report) : exact_(report.touch_tolerance == 0) {
         for (const ClashReport::Surfaces::Named& named : report.surfaces.first)
             parts_.emplace(named.model, named.id);
     }
@@ -58,11 +58,15 @@ public:
         return clash.volume_error == 0 && // only solids have a common volume
                parts_.contains({model, models[model].parts[clash.part.at(side)].id});
     }
-    [[nodiscard]] int count(const std::vector<Scene>& models, const Clash& clash) const {
-        return (has(models, clash, 0) ? 1 : 0) + (has(models, clash, 1) ? 1 : 0);
+    /// Returns whether nothing has a depth: two surfaces cross, and no tolerance asks how far they go
+    /// beyond each other.
+    [[nodiscard]] bool lack_depth(const std::vector<Scene>& models, const Clash& clash) const {
+        return exact_ && clash.kind == ClashKind::hard && has(models, clash, 0) &&
+               has(models, clash, 1);
     }
 
 private:
+    bool exact_; ///< the job has no touch tolerance
     std::set<std::pair<std::uint32_t, std::string>> parts_;
 };
 
@@ -81,12 +85,12 @@ std::string names(const std::vector<Scene>& models, const SurfaceParts& surfaces
     return a + (is_narrow ? "\n" + std::string(kNames, ' ') : "  |  ") + b;
 }
 
-/// The depth or gap of a clash. Where there is no inside, nothing has a depth: the number in the report
-/// tells how far two triangles, or the parts, must move to part.
+/// The depth or gap of a clash. Where nothing has a depth, the number in the report tells how far two
+/// triangles, or the parts, must move to part.
 std::string length_text(const std::vector<Scene>& models, const SurfaceParts& surfaces,
                         const Clash& clash) {
     const double distance = told_distance(clash);
-    if (clash.kind == ClashKind::hard && surfaces.count(models, clash) == 2)
+    if (surfaces.lack_depth(models, clash))
         return "no inside";
     return distance == 0 ? "below rounding" : number(distance, 4) + " m";
 }
@@ -243,11 +247,11 @@ std::string summary(const ClashReport& report, const std::vector<Scene>& models,
     const SurfaceParts surfaces(report);
     text += largest(report, models, surfaces);
     const auto nearer = [](const Clash& a, const Clash& b) { return a.distance < b.distance; };
-    // Surfaces have no depth: clashes of two of them come last, whatever their number.
+    // Clashes without a depth come last, whatever their number.
     const auto deeper = [&](const Clash& a, const Clash& b) {
-        const bool is_deep_a = surfaces.count(models, a) < 2,
-                   is_deep_b = surfaces.count(models, b) < 2;
-        return is_deep_a != is_deep_b ? is_deep_a : a.distance < b.distance;
+        const bool lacks_a = surfaces.lack_depth(models, a),
+                   lacks_b = surfaces.lack_depth(models, b);
+        return lacks_a != lacks_b ? lacks_b : a.distance < b.distance;
     };
     text += extremes(
         "deepest", report, models, surfaces,
