@@ -145,11 +145,16 @@ private:
     Sheets of_a_, of_b_;
 };
 
-/// Returns whether a surface is the first of two, whatever their order: by their first triangle.
+/// Returns whether a surface is the first of two, whatever their order: by their first triangles, and by
+/// their boxes if they share one.
 bool is_first(const WorldSolid& a, const WorldSolid& b) {
-    const Triangle t = a.world_triangle(0), u = b.world_triangle(0);
+    const auto places = [](const WorldSolid& surface) {
+        const Triangle t = surface.world_triangle(0);
+        const Box3 box = surface.world_box();
+        return std::array{t[0], t[1], t[2], box.lower, box.upper};
+    };
     return std::ranges::lexicographical_compare(
-        t, u, [](const Vec3& p, const Vec3& q) { return is_before(p, q); });
+        places(a), places(b), [](const Vec3& p, const Vec3& q) { return is_before(p, q); });
 }
 
 /// The contacts of faces that bound no solid, of a and of b moved by a vector, and how far these faces go
@@ -181,7 +186,7 @@ Proof cross_at_most(PartPair& pair, SheetsOfPair& sheets, double touch, LocalPen
     const WorldSolid &a = pair.a().solid(), &b = pair.b().solid();
     const ClashPart &of_a = pair.a().part(), &of_b = pair.b().part();
     const Vec3 shift = sheet_shift(a, b);
-    // One of them is moved, the same one for either order.
+    // The same one of them is moved for either order.
     const SheetOverlap overlap =
         is_first(b, a) ? overlap_if_moved(of_b, of_a, shift, touch,
                                           [&](const Contact& c) {

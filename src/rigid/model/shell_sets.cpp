@@ -116,8 +116,8 @@ private:
         return orient2d(e0_, e1_, first_, axis_) == orient2d(e0_, e1_, apex, axis_) ? 0 : 2;
     }
     /// Of rays at one angle, those where matter ends come first: no matter lies between two of them.
-    /// Those of one orientation lie in the order of their sheets along their normal, which points ahead
-    /// where matter ends. So two sheets lie in one order at all their common edges.
+    /// Rays of one orientation lie in the order of their sheets along the sheets' normal, which points
+    /// ahead where matter ends. So two sheets lie in one order at all their common edges.
     [[nodiscard]] bool before(const Ray& r, const Ray& s) const {
         const int turn_r = half_turn(r.apex), turn_s = half_turn(s.apex);
         if (turn_r != turn_s)

@@ -65,7 +65,7 @@ public:
             add({first, first + i - 1, first + i}, triangle, weight);
     }
 
-    /// Whether the solid winds backwards beside faces that are no slits at T-junctions, or has a border
+    /// Returns whether the solid winds backwards beside faces that are no slits at T-junctions, or has a border
     /// that is wider than these. Cavities that overlap make a closed one wind backwards.
     [[nodiscard]] bool contradicts(const FacesUncertainty& uncertainty) const {
         if (solid_.closed)

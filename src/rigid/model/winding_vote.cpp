@@ -59,10 +59,11 @@ public:
     }
 
     [[nodiscard]] bool is_mixed() const { return any_forwards_ && any_backwards_; }
-    /// Whether the triangles have an inside.
+    /// Returns whether the triangles have an inside.
     [[nodiscard]] bool has_inside() const { return any_forwards_ || any_backwards_; }
     [[nodiscard]] bool may_overlap() const { return may_overlap_; }
-    /// What other triangles hide, and what is not probed, faces as all others, or does not count.
+    /// Returns the weight of a patch. One that others hide, or that is not probed, faces as all others
+    /// do; it does not count if those differ.
     [[nodiscard]] int weight(std::uint32_t patch) const {
         const int others = is_mixed() ? 0 : any_backwards_ ? -1 : 1;
         return weight_[patch] == kUnknown ? others : weight_[patch];

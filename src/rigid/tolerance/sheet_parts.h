@@ -20,14 +20,14 @@ struct SheetCrossing {
     std::uint32_t curve = 0; ///< of which the line is a part
 };
 
-/// What is known of the greatest distance of some points from a surface.
+/// Bounds of the greatest distance of some points from a surface.
 struct ReachBounds {
     double low = 0; ///< reached at a point
     double high = 0;
     Vec3 point;
     bool of_second = false; ///< whether the point is on the second of two sheets
 };
-/// What is known of the lesser and of the greater of two distances.
+/// Bounds of the lesser and of the greater of two distances.
 ReachBounds lesser(const ReachBounds& a, const ReachBounds& b);
 ReachBounds greater(const ReachBounds& a, const ReachBounds& b);
 

@@ -199,7 +199,7 @@ BodyGap measure(const PlacedConvex& a, const PlacedConvex& b, double /*upper_bou
     return convex_gap(a.shape.solid, a.world, b.shape.solid, b.world, warm_start.solids);
 }
 
-/// Whether a capsule's axis or a box's face is across a direction, to rounding: then there are many
+/// Returns whether a capsule's axis or a box's face is across a direction, to rounding: then there are many
 /// closest points, and the start of a search decides which of them it finds.
 bool lies_across(const RoundedBox& core, const Vec3& direction) {
     constexpr double kAcross = 0x1p-20; // the closest points of others are unique to 2^-20
@@ -407,7 +407,7 @@ bool touch(const PlacedBody& a, const PlacedBody& b, PairWarmStart& warm_start) 
 
 BodyGap gap_between(const PlacedBody& a, const PlacedBody& b, double upper_bound, Depths depths,
                     PairWarmStart& warm_start) {
-    // Whether bodies touch, `touch` decides alone. What it decides is rounded too: a gap up to twice
+    // `touch` alone decides whether bodies touch. What it decides is rounded too: a gap up to twice
     // the rounding must be known, not only that it exceeds a lower bound.
     const double rounding = contact_rounding(a, b);
     const double bound = std::max(upper_bound, 2 * rounding);

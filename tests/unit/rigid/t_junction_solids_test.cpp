@@ -129,7 +129,7 @@ double volume_of(const Mesh& mesh) {
     return volume->volume;
 }
 
-/// What overlaps counts once, however the solids are turned.
+/// Common parts count once, however the solids are turned.
 TEST(TJunctionSolids, UnionsHaveAVolume) {
     const Mesh unit = box_mesh({0, 0, 0}, {1, 1, 1});
     EXPECT_NEAR(volume_of(joined(unit, box_with_t_junctions({2, 0, 0}))), 2, 1e-4);
