@@ -196,7 +196,7 @@ private:
 
     TouchingDirection add_direction(TriangleMeeting& m, const MeetingFace& fa,
                                     const MeetingFace& fb, double gap = 0) const {
-        const TouchingDirection found =
+        TouchingDirection found =
             touching_direction({fa.corners, fb.corners, fa.unit_normal, fb.unit_normal,
                                 a_.is_oriented(), b_.is_oriented()},
                                rounding_ + 0.125 * gap);
