@@ -166,6 +166,7 @@ void LevelView::upload(const CameraMotion& motion) {
     request_.pixel_error = std::max(options_.pixel_error, kPlannedError * cut_.error());
     request_.frame = frame_number_;
     auto taken = loader_.exchange(first, std::min(others, room - bytes), request_, has_waited_);
+    is_request_refused_ = !taken;
     if (!taken)
         return;
     counters_ = taken->counters;
@@ -323,6 +324,8 @@ Box3 LevelView::bounds() const {
 }
 
 void LevelView::wait() {
+    if (std::exchange(is_request_refused_, false))
+        loader_.ask(request_);
     loader_.wait();
     has_waited_ = true;
 }

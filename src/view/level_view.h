@@ -77,7 +77,8 @@ private:
     DrawnCut drawn_;
     std::vector<bool> hidden_; ///< by part
     std::uint32_t frame_number_ = 0;
-    bool has_waited_ = false;  ///< the next frame uploads all
+    bool has_waited_ = false;         ///< the next frame uploads all
+    bool is_request_refused_ = false; ///< the loader does not know yet what the last frame wanted
     bool is_delivered_ = true; ///< the last frame was returned, so that its uploads were made
     std::vector<std::uint32_t> marks_; ///< by chunk: the last pass that marked it
     std::uint32_t pass_ = 0;

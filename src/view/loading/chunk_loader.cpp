@@ -54,6 +54,23 @@ std::optional<TakenChunks> ChunkLoader::exchange(std::span<const std::uint32_t> 
         }
         order_.pop_front();
     }
+    set_request(request);
+    taken.counters = counters_;
+    lock.unlock();
+    news_.notify_one();
+    return taken;
+}
+
+void ChunkLoader::ask(LoadRequest& request) {
+    {
+        const std::scoped_lock lock(mutex_);
+        set_request(request);
+    }
+    news_.notify_one();
+}
+
+/// The lock is held.
+void ChunkLoader::set_request(LoadRequest& request) {
     std::swap(request_, request);
     for (const std::uint32_t chunk : request_.wanted)
         if (const auto found = staged_.find(chunk); found != staged_.end())
@@ -62,10 +79,6 @@ std::optional<TakenChunks> ChunkLoader::exchange(std::span<const std::uint32_t> 
     has_request_ = has_news_ = true;
     wanted_done_ = false;
     is_idle_ = false;
-    taken.counters = counters_;
-    lock.unlock();
-    news_.notify_one();
-    return taken;
 }
 
 void ChunkLoader::take_one(std::uint32_t chunk, std::vector<ReadChunk>& taken) {

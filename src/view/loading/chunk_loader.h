@@ -78,6 +78,8 @@ public:
     std::optional<TakenChunks> exchange(std::span<const std::uint32_t> first,
                                         std::uint64_t more_bytes, LoadRequest& request,
                                         bool wait_for_lock);
+    /// Asks for more, as exchange() does, and waits for the lock.
+    void ask(LoadRequest& request);
     /// Throws the first error of the other thread that was not thrown yet.
     void throw_error();
     /// Waits until the wanted chunks are staged, or there is no room for the next one.
@@ -113,6 +115,7 @@ private:
     /// What ended a step of the thread.
     enum class Step : std::uint8_t { loaded, replanned, idle };
 
+    void set_request(LoadRequest& request);
     void run();
     Step try_step(Lock& lock);
     Step step(Lock& lock);

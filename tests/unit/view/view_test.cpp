@@ -57,6 +57,18 @@ TEST_F(ViewOfStore, BecomesComplete) {
     EXPECT_LE(view.statistics().peak_bytes, ViewOptions().memory);
 }
 
+// The second thread may hold its lock while the first frame asks, most likely as it starts.
+TEST_F(ViewOfStore, AWaitAfterTheFirstFrameLoadsAll) {
+    const Store store = plant(10'000);
+    for (int i = 0; i < 200; ++i) {
+        View view(store);
+        const Camera camera = overview(view);
+        (void)view.frame(camera);
+        view.wait();
+        ASSERT_TRUE(view.frame(camera).loaded) << "view " << i;
+    }
+}
+
 TEST_F(ViewOfStore, KnowsItsParts) {
     const View view(plant(30'000));
     EXPECT_EQ(view.up(), UpAxis::y);
