@@ -112,7 +112,7 @@ WorldSolid::Nearest nearest_point(const PlacedModel& model, const Vec3& point,
     double best_sq = search.bound * search.bound;
     const auto bound_sq = [&](double distance) {
         const double d = distance / (1 + search.slack);
-        return distance <= search.enough ? kStopTraversal : d * d;
+        return d * d;
     };
     double next_sq = bound_sq(search.bound);
     const auto visit = [&](std::uint32_t slot) {
@@ -122,7 +122,7 @@ WorldSolid::Nearest nearest_point(const PlacedModel& model, const Vec3& point,
         if (c.distance_sq < best_sq) {
             best_sq = c.distance_sq;
             best = {std::sqrt(c.distance_sq), c.b, slot};
-            next_sq = bound_sq(best.distance);
+            next_sq = best.distance <= search.enough ? kStopTraversal : bound_sq(best.distance);
         }
         return next_sq;
     };

@@ -1,6 +1,7 @@
 #include "tests/support/body.h"
 
 #include <gtest/gtest.h>
+#include <limits>
 
 namespace abut::test {
 namespace {
@@ -108,6 +109,16 @@ TEST(PlacedSolid, PointsOnTheSurfaceAreNotInside) {
     EXPECT_TRUE(box.placed.contains({0.5, 0.5, 0.9999999999999999}));
     EXPECT_FALSE(box.placed.contains({0.5, 0.5, 1.0000000000000002}));
     EXPECT_FALSE(box.placed.contains({1e9, 0, 0}));
+}
+
+TEST(PlacedSolid, AsksWhetherThereIsANearerPoint) {
+    const Body box(box_mesh({0, 0, 0}, {1, 1, 1}));
+    const Vec3 point{0.5, 0.5, 3}; // 2 over a face
+    const auto distance = [&](double nearer) {
+        return box.placed.nearest(point, {.bound = nearer, .enough = nearer}).distance;
+    };
+    EXPECT_EQ(distance(2.5), 2);
+    EXPECT_EQ(distance(1.5), std::numeric_limits<double>::infinity());
 }
 
 TEST(Interpenetrate, BoxesThatOnlyTouch) {
