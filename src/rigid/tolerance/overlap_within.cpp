@@ -4,6 +4,7 @@
 #include "rigid/penetration/local_penetration.h"
 #include "rigid/tolerance/ball_centres.h"
 #include "rigid/tolerance/faces_in_reach.h"
+#include "rigid/tolerance/known_side.h"
 
 #include <algorithm>
 #include <cmath>
@@ -93,15 +94,18 @@ Answer all_points_pass(const WorldSolid& surface, const WorldSolid& solid,
 /// Adds a face with its normal outward. If its weight does not tell which side is outside, points
 /// close to the face tell: a face with the solid on neither side is touched by no ball in it, and one
 /// with the solid on both sides is added both ways.
-void add_turned_outward(const Triangle& face, int weight, const WorldSolid& solid,
+void add_turned_outward(const Triangle& face, int weight, const WorldSolid& solid, KnownSide& known,
                         std::vector<Triangle>& faces) {
     const Triangle turned{face[0], face[2], face[1]};
     if (weight != 0)
         return faces.push_back(weight < 0 ? turned : face);
+    const auto is_in = [&](const Vec3& point) {
+        return !solid.on_surface(point) && is_inside(solid, point, known);
+    };
     const FaceProbe probe = face_probe(face);
-    if (solid.contains(probe.under))
+    if (is_in(probe.under))
         faces.push_back(face);
-    if (solid.contains(probe.over))
+    if (is_in(probe.over))
         faces.push_back(turned);
 }
 
@@ -112,12 +116,13 @@ Answer no_ball_touches(const WorldSolid& touched, const WorldSolid& other,
     const double radius = options.limit * (1 + kCentreError) + 4 * options.rounding;
     ReachSearch search(other, options);
     std::vector<Triangle> faces;
+    KnownSide known;
     const Box3 box = grown(other.world_box(), options.rounding);
-    for_each_face_in_reach(touched, box, 2 * radius, search,
-                           [&](const Triangle& face, std::uint32_t number) {
-                               add_turned_outward(face, touched.weight(number), touched, faces);
-                               return true;
-                           });
+    for_each_face_in_reach(
+        touched, box, 2 * radius, search, [&](const Triangle& face, std::uint32_t number) {
+            add_turned_outward(face, touched.weight(number), touched, known, faces);
+            return true;
+        });
     for_each_centre_polygon(
         faces, radius,
         [&](const FacePolygon& polygon) { return search.add(polygon) == Proof::holds; },

@@ -280,15 +280,6 @@ bool ReachSearch::settled_by_own(Piece& piece, const Sample& sample, bool deep) 
     return !met || divide_near(piece, PreparedTriangle(*met));
 }
 
-/// Tells the side of a point off the surface, from a point nearby if the side of one is known.
-bool ReachSearch::is_inside(const WorldSolid& surface, const Vec3& point, KnownSide& known) {
-    const bool inside = known.inside
-                            ? surface.contains_off_surface(point, known.point, *known.inside)
-                            : surface.contains_off_surface(point);
-    known = {point, inside};
-    return inside;
-}
-
 bool ReachSearch::is_near_own(const Piece& piece) const {
     return options_.own != nullptr && is_near(piece.polygon, *options_.own, piece.near_own);
 }

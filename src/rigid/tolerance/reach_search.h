@@ -2,10 +2,10 @@
 
 #include "rigid/solid/world_solid.h"
 #include "rigid/tolerance/face_polygon.h"
+#include "rigid/tolerance/known_side.h"
 
 #include <boost/container/static_vector.hpp>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -82,11 +82,6 @@ public:
 
 private:
     using Slots = boost::container::static_vector<std::uint32_t, 4>;
-    /// On which side of a surface a point lies that was tested.
-    struct KnownSide {
-        Vec3 point;
-        std::optional<bool> inside;
-    };
     struct Piece {
         FacePolygon polygon;
         /// Triangles that enclosing pieces were near to, the latest first.
@@ -109,7 +104,6 @@ private:
     [[nodiscard]] bool is_near_own(const Piece& piece) const;
     [[nodiscard]] bool settled_by_own(Piece& piece, const Sample& sample, bool deep);
     void refute(const Vec3& point);
-    static bool is_inside(const WorldSolid& surface, const Vec3& point, KnownSide& known);
     [[nodiscard]] bool divide_near(const Piece& piece, const PreparedTriangle& t);
     [[nodiscard]] bool cut_away(const Piece& piece, std::span<const CuttingPlane> cell);
     void push(const FacePolygon& polygon, const Piece& parent);

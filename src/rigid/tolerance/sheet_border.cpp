@@ -1,5 +1,6 @@
 #include "rigid/tolerance/sheet_border.h"
 
+#include "geometry/point_triangle_distance.h"
 #include "geometry/triangle_triangle_distance.h"
 
 #include <algorithm>
@@ -82,24 +83,8 @@ std::optional<double> crossing_place(const LinePiece& chord, const DirectedPiece
     return distance_to_line(on, line.piece) <= near ? std::optional(share) : std::nullopt;
 }
 
-/// The part of a chord that is within a distance of an edge.
-std::optional<LinePiece> part_within(const LinePiece& chord, const LinePiece& edge, double reach) {
-    if (!overlap(box_of(chord), box_of(edge), reach))
-        return std::nullopt;
-    const auto at = [&](double share) { return chord.p + share * (chord.q - chord.p); };
-    const double nearest = nearest_place(chord, edge);
-    if (distance_to_line(at(nearest), edge) > reach)
-        return std::nullopt;
-    const auto end = [&](double out) {
-        double in = nearest;
-        if (distance_to_line(at(out), edge) <= reach)
-            return out;
-        for (int i = 0; i < 50; ++i)
-            (distance_to_line(at(0.5 * (in + out)), edge) <= reach ? in : out) = 0.5 * (in + out);
-        return in;
-    };
-    const LinePiece part{at(end(0)), at(end(1))};
-    return part.p == part.q ? std::nullopt : std::optional(part);
+Vec3 at(const LinePiece& line, double share) {
+    return line.p + share * (line.q - line.p);
 }
 
 } // namespace
@@ -108,29 +93,44 @@ SheetBorder::SheetBorder(const Sheet& sheet, const WorldSolid& surface, double n
     : surface_(surface), near_(near), sides_(border_of(sheet, near)),
       index_(boxes_of_sides(sides_)) {}
 
-bool SheetBorder::is_nearest(const FaceSide& side, const Vec3& point, double reach) const {
-    const double distance = distance_to_line(point, side.line);
-    if (distance > reach)
+/// Returns whether the surface is nearer to a point than some distance.
+bool SheetBorder::has_nearer(const Vec3& point, double distance, Search& search) const {
+    if (distance <= 0)
         return false;
-    const double nearer = distance - near_;
-    return nearer <= 0 ||
-           !(surface_.nearest(point, {.bound = nearer, .enough = nearer}).distance < nearer);
+    const auto found =
+        surface_.nearest(point, {.bound = distance, .enough = distance, .seed = &search.nearer});
+    if (!(found.distance < distance))
+        return false;
+    search.nearer = found.slot;
+    return true;
 }
 
-std::vector<DirectedPiece> SheetBorder::ends_on(const OtherFace& face, double reach) const {
-    Box3 box;
-    for (const Vec3& corner : face.corners)
-        extend(box, corner);
-    std::vector<BorderLine> lines;
-    index_.for_each_overlap(grown(box, reach), [&](std::uint32_t i) {
-        if (const auto chord =
-                chord_of(face.corners, face.normal, sides_[i].line.p, sides_[i].inward))
-            add_lines(i, *chord, face, reach, lines);
+bool SheetBorder::is_nearest(const FaceSide& side, const Vec3& point, Search& search) const {
+    return !has_nearer(point, distance_to_line(point, side.line) - near_, search);
+}
+
+std::vector<DirectedPiece> SheetBorder::ends_on(const OtherFace& face) const {
+    if (sides_.empty())
+        return {};
+    // No point of the face is farther from the surface than its middle is, and half the face's size.
+    const auto& [p, q, r] = face.corners;
+    const Vec3 middle = (1.0 / 3) * (p + q + r);
+    const double half = std::max({length(p - middle), length(q - middle), length(r - middle)});
+    const auto nearest = surface_.nearest(middle, WorldSolid::NearestSearch{});
+    const double reach = nearest.distance + 2 * half + near_;
+    Search search{nearest.slot};
+    index_.for_each_overlap(grown({middle, middle}, reach), [&](std::uint32_t i) {
+        const FaceSide& side = sides_[i];
+        if (distance_to_line(middle, side.line) > reach)
+            return;
+        const auto chord = chord_of(face.corners, face.normal, side.line.p, side.inward);
+        if (chord && !is_nowhere_nearest(side, *chord, search))
+            add_lines(i, *chord, face, search);
     });
-    bridge(lines, reach);
+    bridge(search);
     std::vector<DirectedPiece> ends;
-    ends.reserve(lines.size());
-    for (const BorderLine& line : lines)
+    ends.reserve(search.lines.size());
+    for (const BorderLine& line : search.lines)
         ends.push_back({line.line, normalized_or_zero(line.line.q - line.line.p)});
     return ends;
 }
@@ -145,7 +145,8 @@ bool SheetBorder::are_neighbours(std::uint32_t i, std::uint32_t j) const {
 
 /// Adds lines between those of border edges that meet. Where the border is twisted, their planes differ,
 /// and their lines may end beside each other where both edges are as near.
-void SheetBorder::bridge(std::vector<BorderLine>& lines, double reach) const {
+void SheetBorder::bridge(Search& search) const {
+    std::vector<BorderLine>& lines = search.lines;
     const std::size_t count = lines.size();
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t j = i + 1; j < count; ++j) {
@@ -159,24 +160,51 @@ void SheetBorder::bridge(std::vector<BorderLine>& lines, double reach) const {
                     if (length_sq(q - p) < length_sq(gap.q - gap.p))
                         gap = {p, q};
             const auto is_between = [&, side = side, other_side = other_side](double share) {
-                const Vec3 at = gap.p + share * (gap.q - gap.p);
-                return is_nearest(sides_[side], at, reach) ||
-                       is_nearest(sides_[other_side], at, reach);
+                return is_nearest(sides_[side], at(gap, share), search) ||
+                       is_nearest(sides_[other_side], at(gap, share), search);
             };
             if (gap.p != gap.q && is_between(0.25) && is_between(0.5) && is_between(0.75))
                 lines.push_back({side, gap});
         }
 }
 
+/// Returns whether the surface is nearer than a border edge to all points of a line. False if that is not
+/// known.
+bool SheetBorder::is_nowhere_nearest(const FaceSide& side, const LinePiece& line,
+                                     Search& search) const {
+    const Vec3 middle = at(line, 0.5);
+    // From the middle to another point, neither distance changes by more than half the line's length.
+    const double change = length(line.q - line.p);
+    return has_nearer(middle, distance_to_line(middle, side.line) - change - near_, search);
+}
+
+/// Finds where a border edge stops to be what is nearest, between a place of a chord where it is and one
+/// where it is not.
+double SheetBorder::end_of_part(const FaceSide& side, const LinePiece& chord, double in, double out,
+                                Search& search) const {
+    constexpr int kHalvings = 50, kMostNearer = 64;
+    // What is nearer there may be farther at a place between, where another triangle is nearer.
+    bool is_in = is_nearest(side, at(chord, out), search);
+    for (int i = 0; i < kMostNearer && !is_in; ++i) {
+        const Triangle nearer = surface_.world_slot(search.nearer);
+        double next = in;
+        for (int k = 0; k < kHalvings; ++k) {
+            const double between = 0.5 * (next + out);
+            const Vec3 point = at(chord, between);
+            const bool is_nearer = std::sqrt(point_triangle_distance(point, nearer).distance_sq) <
+                                   distance_to_line(point, side.line) - near_;
+            (is_nearer ? out : next) = between;
+        }
+        is_in = next == in || is_nearest(side, at(chord, next), search);
+        out = next;
+    }
+    return is_in ? out : in;
+}
+
 /// Adds the parts of a line to which a border edge is nearest.
-void SheetBorder::add_lines(std::uint32_t number, const LinePiece& whole, const OtherFace& face,
-                            double reach, std::vector<BorderLine>& lines) const {
+void SheetBorder::add_lines(std::uint32_t number, const LinePiece& chord, const OtherFace& face,
+                            Search& search) const {
     const FaceSide& side = sides_[number];
-    const std::optional<LinePiece> in_reach = part_within(whole, side.line, reach);
-    if (!in_reach)
-        return;
-    const LinePiece& chord = *in_reach;
-    const auto at = [&](double share) { return chord.p + share * (chord.q - chord.p); };
     std::vector<double> places = places_on(chord, side.line);
     places.push_back(nearest_place(chord, side.line));
     for (const DirectedPiece& crossed : face.crossed)
@@ -186,22 +214,21 @@ void SheetBorder::add_lines(std::uint32_t number, const LinePiece& whole, const 
     std::vector<bool> is_part;
     is_part.reserve(places.size());
     for (const double place : places)
-        is_part.push_back(is_nearest(side, at(place), reach));
-    const auto boundary = [&](double in, double out) {
-        for (int i = 0; i < 50; ++i)
-            (is_nearest(side, at(0.5 * (in + out)), reach) ? in : out) = 0.5 * (in + out);
-        return in;
-    };
+        is_part.push_back(is_nearest(side, at(chord, place), search));
     for (std::size_t i = 0, j = 0; i < places.size(); i = j + 1) {
         for (j = i; j + 1 < places.size() && is_part[i] && is_part[j + 1]; ++j) {
         }
         if (!is_part[i])
             continue;
-        const double from = i == 0 ? places[i] : boundary(places[i], places[i - 1]),
-                     to = j + 1 == places.size() ? places[j] : boundary(places[j], places[j + 1]);
+        const double from = i == 0 ? places[i]
+                                   : end_of_part(side, chord, places[i], places[i - 1], search),
+                     to = j + 1 == places.size()
+                              ? places[j]
+                              : end_of_part(side, chord, places[j], places[j + 1], search);
         // A little more, so that lines that meet leave no gap.
         const double more = 2 * near_ / std::max(length(chord.q - chord.p), near_);
-        lines.push_back({number, {at(std::max(0.0, from - more)), at(std::min(1.0, to + more))}});
+        search.lines.push_back(
+            {number, {at(chord, std::max(0.0, from - more)), at(chord, std::min(1.0, to + more))}});
     }
 }
 

@@ -23,12 +23,13 @@ public:
         const Vec3& normal;                     ///< unit
         std::span<const DirectedPiece> crossed; ///< the lines in which it crosses this sheet
     };
-    /// Returns the lines on a face along which it leaves this sheet, up to `reach` from the border.
+    /// Returns the lines on a face along which it leaves this sheet.
     ///
     /// Accuracy    on each plane, the nearest point is asked for at some tens of places. The border
     ///             may be what is nearest at less than an eighth of a plane's line, and not be found.
-    /// Cost        a search for each place, for each border edge in reach whose plane cuts the face.
-    [[nodiscard]] std::vector<DirectedPiece> ends_on(const OtherFace& face, double reach) const;
+    /// Cost        a search for each border edge that may be nearest to some point of the face, and for
+    ///             each place at which that is not excluded.
+    [[nodiscard]] std::vector<DirectedPiece> ends_on(const OtherFace& face) const;
 
 private:
     /// Lines on a face, by the border edge that is nearest there.
@@ -36,10 +37,22 @@ private:
         std::uint32_t side = 0;
         LinePiece line;
     };
-    [[nodiscard]] bool is_nearest(const FaceSide& side, const Vec3& point, double reach) const;
-    void add_lines(std::uint32_t number, const LinePiece& whole, const OtherFace& face,
-                   double reach, std::vector<BorderLine>& lines) const;
-    void bridge(std::vector<BorderLine>& lines, double reach) const;
+    /// A search for the lines on a face.
+    struct Search {
+        /// A slot of the surface that was nearest, or nearer than a border edge: likely so at the next
+        /// place, too.
+        std::uint32_t nearer = 0;
+        std::vector<BorderLine> lines{}; ///< found so far
+    };
+    [[nodiscard]] bool has_nearer(const Vec3& point, double distance, Search& search) const;
+    [[nodiscard]] bool is_nearest(const FaceSide& side, const Vec3& point, Search& search) const;
+    [[nodiscard]] bool is_nowhere_nearest(const FaceSide& side, const LinePiece& line,
+                                          Search& search) const;
+    [[nodiscard]] double end_of_part(const FaceSide& side, const LinePiece& chord, double in,
+                                     double out, Search& search) const;
+    void add_lines(std::uint32_t number, const LinePiece& chord, const OtherFace& face,
+                   Search& search) const;
+    void bridge(Search& search) const;
     [[nodiscard]] bool are_neighbours(std::uint32_t i, std::uint32_t j) const;
 
     const WorldSolid& surface_;

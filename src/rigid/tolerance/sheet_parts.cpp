@@ -14,15 +14,12 @@ namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-ReachBounds as_known(const ReachBounds& bounds) {
-    return bounds;
-}
-/// A part without an upper bound is likely farther than all that have one.
-ReachBounds as_likely(const ReachBounds& bounds) {
-    ReachBounds likely = bounds;
-    if (bounds.high == kUnbounded)
-        likely.low = kUnbounded;
-    return likely;
+/// The largest distance of a polygon's corner from a point.
+double reach_of_polygon(const std::vector<Vec3>& polygon, const Vec3& point) {
+    double reach = 0;
+    for (const Vec3& corner : polygon)
+        reach = std::max(reach, length(corner - point));
+    return reach;
 }
 
 void sort_unique(std::vector<std::uint32_t>& numbers) {
@@ -41,21 +38,11 @@ constexpr std::uint32_t kNone = 0xffffffff;
 
 } // namespace
 
-ReachBounds lesser(const ReachBounds& a, const ReachBounds& b) {
-    return a.high == b.high ? (a.low <= b.low ? a : b) : (a.high < b.high ? a : b);
-}
-ReachBounds greater(const ReachBounds& a, const ReachBounds& b) {
-    ReachBounds bounds = a.low >= b.low ? a : b;
-    bounds.high = std::max(a.high, b.high);
-    return bounds;
-}
-
 SheetParts::SheetParts(const Sheet& own, const OtherSheet& other,
-                       std::span<const SheetCrossing> crossings, double border_reach, double near,
+                       std::span<const SheetCrossing> crossings, double near,
                        ReachSearch::Options options)
-    : own_(own), other_(other), border_reach_(border_reach), near_(near),
-      options_(std::move(options)), crossings_(crossings), index_(boxes_of_crossings(crossings)),
-      faces_(own.triangles()) {
+    : own_(own), other_(other), near_(near), options_(std::move(options)), crossings_(crossings),
+      index_(boxes_of_crossings(crossings)), faces_(own.triangles()) {
     for (const SheetCrossing& c : crossings)
         faces_[c.own].lines.push_back(c.line);
     for (std::uint32_t i = 0; i < crossings.size(); ++i)
@@ -72,8 +59,7 @@ const SheetParts::Face& SheetParts::cut(std::uint32_t number) {
     face.first = static_cast<std::uint32_t>(pieces_.size());
     const Triangle& t = own_.triangle(number);
     if (normal != Vec3{}) {
-        for (const DirectedPiece& line :
-             other_.border.ends_on({t, normal, face.lines}, border_reach_))
+        for (const DirectedPiece& line : other_.border.ends_on({t, normal, face.lines}))
             face.lines.push_back(line);
         if (face.lines.empty())
             add_piece(number, {t[0], t[1], t[2]});
@@ -92,7 +78,7 @@ void SheetParts::add_piece(std::uint32_t face, std::vector<Vec3> polygon) {
         const LinePiece line{polygon[k], polygon[(k + 1) % polygon.size()]};
         sides.push_back({line, left_of(line, own_.normal(face)), piece});
     }
-    pieces_.push_back({face, std::move(polygon), kNone, std::move(sides)});
+    pieces_.push_back({face, std::move(polygon), kNone, 0, std::move(sides)});
 }
 
 /// Calls visit(face) for a face, for those that share an edge with it, and for those with a loose edge in
@@ -254,12 +240,16 @@ std::uint32_t SheetParts::part_of(std::uint32_t piece) {
     if (pieces_[piece].part == kNone) {
         const auto part = static_cast<std::uint32_t>(parts_.size());
         united_.push_back(part);
-        parts_.push_back({{0, kUnbounded, {}}, {}, {}});
+        parts_.emplace_back();
         reach(piece, part);
     }
-    std::uint32_t part = pieces_[piece].part;
+    return united(pieces_[piece].part);
+}
+
+/// The part to which a part belongs now.
+std::uint32_t SheetParts::united(std::uint32_t part) const {
     while (united_[part] != part)
-        part = united_[part] = united_[united_[part]];
+        part = united_[part];
     return part;
 }
 
@@ -267,13 +257,15 @@ std::uint32_t SheetParts::part_of(std::uint32_t piece) {
 void SheetParts::reach(std::uint32_t piece, std::uint32_t number) {
     Part& part = parts_[number];
     pieces_[piece].part = number;
-    double farthest = 0;
-    for (const Vec3& corner : pieces_[piece].polygon) {
+    const std::vector<Vec3>& polygon = pieces_[piece].polygon;
+    double farthest = 0, at_most = kUnbounded;
+    for (const Vec3& corner : polygon) {
         const double distance = other_.distances.of(corner);
         farthest = std::max(farthest, distance);
-        if (distance > part.reach.low)
-            part.reach.low = distance, part.reach.point = corner;
+        at_most = std::min(at_most, distance + reach_of_polygon(polygon, corner));
+        part.farthest = std::max(part.farthest, FarPoint{distance, corner});
     }
+    pieces_[piece].at_most = at_most;
     part.pieces.push_back(piece);
     part.edge.emplace(farthest, piece);
 }
@@ -283,8 +275,8 @@ void SheetParts::unite(std::uint32_t number, std::uint32_t other_number) {
         return;
     Part &part = parts_[number], &other = parts_[other_number];
     united_[other_number] = number;
-    part.reach = greater(part.reach, other.reach);
-    part.reach.high = kUnbounded;
+    part.farthest = std::max(part.farthest, other.farthest);
+    part.at_most = kUnbounded;
     part.pieces.insert(part.pieces.end(), other.pieces.begin(), other.pieces.end());
     for (; !other.edge.empty(); other.edge.pop())
         part.edge.push(other.edge.top());
@@ -293,7 +285,7 @@ void SheetParts::unite(std::uint32_t number, std::uint32_t other_number) {
 
 /// Walks a part until a corner is farther than a limit.
 void SheetParts::walk(std::uint32_t number, double limit) {
-    while (parts_[number].reach.low <= limit && !parts_[number].edge.empty()) {
+    while (parts_[number].farthest.distance <= limit && !parts_[number].edge.empty()) {
         poll_stop();
         const std::uint32_t piece = parts_[number].edge.top().second;
         parts_[number].edge.pop();
@@ -320,7 +312,22 @@ void SheetParts::walk(std::uint32_t number, double limit) {
     }
 }
 
-Proof SheetParts::ends_within(std::uint32_t number, double limit) {
+Proof SheetParts::ends_within(std::uint32_t curve, double limit) {
+    return decide(curve, limit, &SheetParts::examine);
+}
+bool SheetParts::corners_end_within(std::uint32_t curve, double limit) {
+    return decide(curve, limit, &SheetParts::examine_corners) == Proof::holds;
+}
+
+/// Decides whether the parts on one side of each line of a curve are within a limit.
+Proof SheetParts::decide(std::uint32_t number, double limit, Examine check) {
+    const auto are_within = [&](const std::vector<std::uint32_t>& pieces) {
+        Proof all = Proof::holds;
+        for (const std::uint32_t piece : pieces)
+            if (all != Proof::fails)
+                all = both_hold(all, (this->*check)(piece, limit));
+        return all;
+    };
     Curve& curve = curves_[number];
     Proof all = Proof::holds;
     for (std::size_t i = 0; i < curve.sides.size() || curve.looked_at < curve.crossings.size();) {
@@ -328,10 +335,10 @@ Proof SheetParts::ends_within(std::uint32_t number, double limit) {
             find_sides(crossings_[curve.crossings[curve.looked_at++]]);
             continue;
         }
-        const Proof first = are_within(curve.sides[i].over, limit);
-        all = both_hold(all, first == Proof::holds
-                                 ? first
-                                 : either_holds(first, are_within(curve.sides[i].under, limit)));
+        Proof one = are_within(curve.sides[i].over);
+        if (one != Proof::holds)
+            one = either_holds(one, are_within(curve.sides[i].under));
+        all = both_hold(all, one);
         if (all == Proof::fails)
             break;
         ++i;
@@ -339,62 +346,73 @@ Proof SheetParts::ends_within(std::uint32_t number, double limit) {
     return all;
 }
 
-Proof SheetParts::are_within(const std::vector<std::uint32_t>& pieces, double limit) {
-    Proof all = Proof::holds;
-    for (const std::uint32_t piece : pieces)
-        all = both_hold(all, examine(piece, limit));
-    return all;
+/// As examine(), for the corners of the part's pieces.
+Proof SheetParts::examine_corners(std::uint32_t piece, double limit) {
+    const std::uint32_t number = part_of(piece);
+    walk(number, limit);
+    return parts_[number].farthest.distance <= limit ? Proof::holds : Proof::fails;
 }
 
 /// Decides whether the part of a piece is within a limit, unless that is known.
 Proof SheetParts::examine(std::uint32_t piece, double limit) {
     const std::uint32_t number = part_of(piece);
-    ReachBounds& known = parts_[number].reach;
-    if (known.high <= limit)
+    Part& part = parts_[number];
+    if (part.at_most <= limit)
         return Proof::holds;
     walk(number, limit + options_.rounding);
-    if (known.low > limit + options_.rounding)
+    if (part.farthest.distance > limit + options_.rounding)
         return Proof::fails;
     ReachSearch::Options options = options_;
     options.limit = limit;
     ReachSearch search(other_.surface, options);
-    for (const std::uint32_t i : parts_[number].pieces) {
+    for (const std::uint32_t i : part.pieces) {
+        if (pieces_[i].at_most <= limit)
+            continue;
         const std::vector<Vec3>& polygon = pieces_[i].polygon;
         for (std::size_t k = 2; k < polygon.size() && search.proof() == Proof::holds; ++k)
             search.add({polygon[0], polygon[k - 1], polygon[k]});
     }
     if (search.proof() == Proof::holds)
-        known.high = limit;
+        part.at_most = limit;
     if (search.proof() != Proof::fails)
         return search.proof();
-    const double distance =
-        other_.surface.nearest(search.counterexample(), WorldSolid::NearestSearch{}).distance;
-    if (distance > known.low)
-        known.low = distance, known.point = search.counterexample();
+    const Vec3& found = search.counterexample();
+    part.farthest = std::max(
+        part.farthest,
+        FarPoint{other_.surface.nearest(found, WorldSolid::NearestSearch{}).distance, found});
     return Proof::fails;
 }
 
-ReachBounds SheetParts::reach_of(std::uint32_t number, Choose choose) {
-    ReachBounds most;
-    const Curve& curve = curves_[number];
+/// The greatest along a curve of what parts on one side reach, or those on the other side if that is less.
+FarPoint SheetParts::reach_of(std::uint32_t number, ReachOfPart of_part) const {
+    const Part unreached;
     const auto of_pieces = [&](const std::vector<std::uint32_t>& pieces) {
-        ReachBounds bounds;
-        for (const std::uint32_t piece : pieces)
-            bounds = greater(bounds, parts_[part_of(piece)].reach);
-        return choose(bounds);
+        FarPoint most;
+        for (const std::uint32_t piece : pieces) {
+            const std::uint32_t part = pieces_[piece].part;
+            most = std::max(most, of_part(part == kNone ? unreached : parts_[united(part)]));
+        }
+        return most;
     };
-    for (const auto& [over, under] : curve.sides)
-        most = greater(most, lesser(of_pieces(over), of_pieces(under)));
-    if (curve.looked_at < curve.crossings.size())
-        most.high = kUnbounded, most = choose(most);
+    FarPoint most;
+    for (const auto& [over, under] : curves_.at(number).sides)
+        most = std::max(most, std::min(of_pieces(over), of_pieces(under)));
     return most;
 }
 
-ReachBounds SheetParts::reach_beyond(std::uint32_t curve) {
-    return reach_of(curve, as_known);
+FarPoint SheetParts::least_reach(std::uint32_t curve) const {
+    return reach_of(curve, [](const Part& part) { return part.farthest; });
 }
-ReachBounds SheetParts::likely_reach(std::uint32_t curve) {
-    return reach_of(curve, as_likely);
+
+double SheetParts::reach_of_corners(std::uint32_t number) const {
+    const Curve& curve = curves_.at(number);
+    if (curve.looked_at < curve.crossings.size())
+        return kUnbounded;
+    return reach_of(number,
+                    [](const Part& part) {
+                        return part.is_walked() ? part.farthest : FarPoint{kUnbounded, {}};
+                    })
+        .distance;
 }
 
 } // namespace abut

@@ -6,7 +6,9 @@
 #include "rigid/tolerance/sheet_border.h"
 
 #include <cstdint>
+#include <limits>
 #include <map>
+#include <optional>
 #include <queue>
 #include <span>
 #include <vector>
@@ -20,16 +22,14 @@ struct SheetCrossing {
     std::uint32_t curve = 0; ///< of which the line is a part
 };
 
-/// Bounds of the greatest distance of some points from a surface.
-struct ReachBounds {
-    double low = 0; ///< reached at a point
-    double high = 0;
+/// A point of a sheet, and its distance from another one.
+struct FarPoint {
+    double distance = 0;
     Vec3 point;
     bool of_second = false; ///< whether the point is on the second of two sheets
+
+    friend bool operator<(const FarPoint& a, const FarPoint& b) { return a.distance < b.distance; }
 };
-/// Bounds of the lesser and of the greater of two distances.
-ReachBounds lesser(const ReachBounds& a, const ReachBounds& b);
-ReachBounds greater(const ReachBounds& a, const ReachBounds& b);
 
 /// The distances of points from a surface. A corner of several pieces is measured once.
 class CornerDistances {
@@ -37,8 +37,11 @@ public:
     explicit CornerDistances(const WorldSolid& surface) : surface_(surface) {}
     double of(const Vec3& corner) {
         const auto [at, is_new] = known_.try_emplace(corner, 0.0);
-        if (is_new)
-            at->second = surface_.nearest(corner, WorldSolid::NearestSearch{}).distance;
+        if (is_new) {
+            const auto nearest = surface_.nearest(corner, {.seed = last_ ? &*last_ : nullptr});
+            at->second = nearest.distance;
+            last_ = nearest.slot;
+        }
         return at->second;
     }
 
@@ -48,6 +51,8 @@ private:
     };
     const WorldSolid& surface_;
     std::map<Vec3, double, Before> known_;
+    std::optional<std::uint32_t>
+        last_; ///< the slot nearest to the last corner: likely near the next
 };
 
 /// Another sheet, as a sheet is divided along it.
@@ -66,24 +71,28 @@ struct OtherSheet {
 /// A part is walked from the lines outward, the farthest piece first, only as far as a question needs.
 class SheetParts {
 public:
-    /// In      own, other, crossings: must outlive the parts. border_reach: the other sheet's border matters as far from it as that. options: of the
-    ///         searches; their limit is not used.
+    /// In      own, other, crossings: must outlive the parts. options: of the searches; their limit is
+    ///         not used.
     SheetParts(const Sheet& own, const OtherSheet& other, std::span<const SheetCrossing> crossings,
-               double border_reach, double near, ReachSearch::Options options);
+               double near, ReachSearch::Options options);
 
     /// Decides whether on one side of each line of a curve, the sheet goes at most `limit` from the other
     /// one.
     Proof ends_within(std::uint32_t curve, double limit);
-    /// How far it goes on the side on which it goes less far: the greatest along the curve.
-    [[nodiscard]] ReachBounds reach_beyond(std::uint32_t curve);
-    /// As reach_beyond(), but parts without an upper bound reach infinitely far.
-    [[nodiscard]] ReachBounds likely_reach(std::uint32_t curve);
+    /// As ends_within(), for the corners of the sheet's pieces alone.
+    bool corners_end_within(std::uint32_t curve, double limit);
+    /// How far it goes on the side on which it goes less far, the greatest along the curve: at least as
+    /// far, by a point that was found.
+    [[nodiscard]] FarPoint least_reach(std::uint32_t curve) const;
+    /// The same of the corners; infinite if parts are not walked to their ends.
+    [[nodiscard]] double reach_of_corners(std::uint32_t curve) const;
 
 private:
     struct Piece {
         std::uint32_t face = 0;
         std::vector<Vec3> polygon;
         std::uint32_t part = 0; ///< if it is reached; else kNone
+        double at_most = 0; ///< if it is reached: no point of it is farther from the other sheet
         std::vector<FaceSide> sides;
     };
     struct Face {
@@ -93,9 +102,11 @@ private:
     };
     /// A part, as far as it is walked.
     struct Part {
-        ReachBounds reach;
+        FarPoint farthest;                                        ///< that was found
+        double at_most = std::numeric_limits<double>::infinity(); ///< no point is farther
         std::vector<std::uint32_t> pieces;
         std::priority_queue<std::pair<double, std::uint32_t>> edge; ///< farthest first
+        [[nodiscard]] bool is_walked() const { return !pieces.empty() && edge.empty(); }
     };
     /// The pieces on both sides of a line of a curve.
     struct Sides {
@@ -107,7 +118,8 @@ private:
         std::size_t looked_at = 0; ///< crossings whose sides are found
         std::vector<Sides> sides;
     };
-    using Choose = ReachBounds (*)(const ReachBounds&);
+    using Examine = Proof (SheetParts::*)(std::uint32_t, double);
+    using ReachOfPart = FarPoint (*)(const Part&);
 
     const Face& cut(std::uint32_t face);
     void add_piece(std::uint32_t face, std::vector<Vec3> polygon);
@@ -124,17 +136,19 @@ private:
     void find_sides(const SheetCrossing& crossing);
     [[nodiscard]] std::vector<std::uint32_t> faces_along(const SheetCrossing& crossing);
 
+    [[nodiscard]] std::uint32_t united(std::uint32_t part) const;
     std::uint32_t part_of(std::uint32_t piece);
     void reach(std::uint32_t piece, std::uint32_t part);
     void unite(std::uint32_t part, std::uint32_t other);
     void walk(std::uint32_t part, double limit);
-    [[nodiscard]] Proof are_within(const std::vector<std::uint32_t>& pieces, double limit);
     Proof examine(std::uint32_t piece, double limit);
-    [[nodiscard]] ReachBounds reach_of(std::uint32_t curve, Choose choose);
+    Proof examine_corners(std::uint32_t piece, double limit);
+    Proof decide(std::uint32_t curve, double limit, Examine check);
+    [[nodiscard]] FarPoint reach_of(std::uint32_t curve, ReachOfPart reach) const;
 
     const Sheet& own_;
     const OtherSheet other_;
-    const double border_reach_, near_;
+    const double near_;
     const ReachSearch::Options options_;
     const std::span<const SheetCrossing> crossings_;
     const BoxIndex index_; ///< of the crossings

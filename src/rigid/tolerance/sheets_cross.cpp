@@ -10,6 +10,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace abut {
@@ -25,10 +26,10 @@ constexpr double kNear = 8;
 /// A curve that is not larger than this many such lengths may be there only because of the shift.
 constexpr double kTinyCurve = 4;
 
-/// By which factor the distance grows up to which borders are looked at.
+/// By which factor a length grows until the depth is not more.
 constexpr double kStep = 8;
 /// The relative accuracy of a depth that no corner reaches.
-constexpr double kAccuracy = 0x1p-12;
+constexpr double kAccuracy = 0x1p-15;
 /// Relative distances from the depth of a corner at which it is proven to be the depth.
 constexpr double kAccuracyAtCorner = 0x1p-30;
 
@@ -61,35 +62,25 @@ public:
         find_curves();
         for (const SheetCrossing& c : crossings_[0])
             crossings_[1].push_back({c.other, c.own, c.line, c.curve});
+        for (std::size_t side = 0; side < 2; ++side)
+            parts_[side] =
+                std::make_unique<SheetParts>(sheets_[side],
+                                             OtherSheet{sheets_[1 - side], borders_[1 - side],
+                                                        *surfaces_[1 - side], distances_[1 - side]},
+                                             crossings_[side], near_, options_);
         for (const WorldSolid* surface : {surfaces_[0].get(), surfaces_[1].get()})
             extend(box_, surface->world_box().lower), extend(box_, surface->world_box().upper);
     }
 
     SheetOverlap overlap() {
         SheetOverlap result;
-        double before = 0;
-        ReachBounds known;
-        for (double reach = tolerance_; !curves_.empty();) {
-            divide(reach);
-            const Proof within = within_limit(reach);
-            if (reach == tolerance_)
-                result.within = within;
-            const bool is_last = reach >= length(box_.upper - box_.lower);
-            if (within == Proof::holds)
-                narrow(before, reach);
-            if (within == Proof::holds || is_last || result.within == Proof::open)
-                break;
-            // Where places on borders were missed, the next depth may be less than what is known.
-            before = reach;
-            known = reach_by(&SheetParts::reach_beyond);
-            reach *= kStep;
-        }
-        ReachBounds bounds = parts_[0] ? reach_by(&SheetParts::reach_beyond) : ReachBounds{};
-        if (bounds.low <= before)
-            bounds = known;
-        if (bounds.low > options_.rounding)
-            result.depth = bounds.low, result.point = origin_ + bounds.point,
-            result.of_b = bounds.of_second;
+        result.within = within_limit(tolerance_);
+        if (result.within != Proof::open)
+            find_depth(result.within);
+        const FarPoint farthest = least_depth();
+        if (farthest.distance > options_.rounding)
+            result.depth = farthest.distance, result.point = origin_ + farthest.point,
+            result.of_b = farthest.of_second;
         return result;
     }
 
@@ -127,54 +118,87 @@ private:
                 curves_.push_back(curve);
     }
 
-    /// Divides both sheets, with borders up to a distance.
-    void divide(double reach) {
-        for (std::size_t side = 0; side < 2; ++side)
-            parts_[side] = std::make_unique<SheetParts>(
-                sheets_[side],
-                OtherSheet{sheets_[1 - side], borders_[1 - side], *surfaces_[1 - side],
-                           distances_[1 - side]},
-                crossings_[side], reach + options_.rounding, near_, options_);
-    }
-
     /// Decides whether along each curve one of the sheets goes at most `limit` beyond the other one.
     Proof within_limit(double limit) {
         Proof all = Proof::holds;
-        for (const std::uint32_t curve : curves_) {
-            Proof ends = parts_[0]->ends_within(curve, limit);
+        for (std::size_t i = 0; i < curves_.size() && all != Proof::fails; ++i) {
+            Proof ends = parts_[0]->ends_within(curves_[i], limit);
             if (ends != Proof::holds)
-                ends = either_holds(ends, parts_[1]->ends_within(curve, limit));
+                ends = either_holds(ends, parts_[1]->ends_within(curves_[i], limit));
             all = both_hold(all, ends);
+            if (ends == Proof::fails) // the next limit, too, likely fails here
+                std::swap(curves_[0], curves_[i]);
         }
         return all;
     }
+    /// As within_limit(), for the corners of the parts.
+    bool corners_within_limit(double limit) {
+        return std::ranges::all_of(curves_, [&](std::uint32_t curve) {
+            return parts_[0]->corners_end_within(curve, limit) ||
+                   parts_[1]->corners_end_within(curve, limit);
+        });
+    }
 
-    using ReachOfCurve = ReachBounds (SheetParts::*)(std::uint32_t);
-    [[nodiscard]] ReachBounds reach_by(ReachOfCurve reach) const {
-        ReachBounds most;
+    /// A point that lies at most as far beyond the other sheet as the depth.
+    [[nodiscard]] FarPoint least_depth() const {
+        FarPoint most;
         for (const std::uint32_t curve : curves_) {
-            ReachBounds of_second = ((*parts_[1]).*reach)(curve);
+            FarPoint of_second = parts_[1]->least_reach(curve);
             of_second.of_second = true;
-            most = greater(most, lesser(((*parts_[0]).*reach)(curve), of_second));
+            most = std::max(most, std::min(parts_[0]->least_reach(curve), of_second));
         }
         return most;
     }
+    /// The depth if no point of a part is farther than its corners.
+    [[nodiscard]] double depth_of_corners() const {
+        double most = 0;
+        for (const std::uint32_t curve : curves_)
+            most = std::max(most, std::min(parts_[0]->reach_of_corners(curve),
+                                           parts_[1]->reach_of_corners(curve)));
+        return most;
+    }
 
-    /// Finds the depth, which is between two lengths. The farthest point is often a corner.
+    /// Finds the depth, which is often that of a corner.
+    ///
+    /// In          within: whether the depth is at most the tolerance.
+    void find_depth(Proof within) {
+        const double size = length(box_.upper - box_.lower); // no point is farther
+        for (double limit = tolerance_; limit < size && !corners_within_limit(limit);)
+            limit *= kStep;
+        if (within == Proof::holds)
+            narrow(0, tolerance_);
+        else
+            narrow(tolerance_, size);
+    }
+
+    /// Finds the depth, which is between two lengths.
     void narrow(double low, double high) {
-        constexpr int kMostSteps = 60;
+        constexpr int kMostSteps = 100;
         const double rounding = options_.rounding;
-        for (int i = 0; i < kMostSteps && high - low > kAccuracy * high + 4 * rounding; ++i) {
-            const double likely = reach_by(&SheetParts::likely_reach).low;
-            const double over = likely * (1 + kAccuracyAtCorner) + rounding,
-                         under = likely * (1 - kAccuracyAtCorner) - 2 * rounding;
-            const double next = low < over && over < high     ? over
-                                : low < under && under < high ? under
-                                                              : 0.5 * (low + high);
-            (within_limit(next) == Proof::holds ? high : low) = next;
+        double growth = 1.01;
+        bool is_corner = true; // as far as is known, the farthest point is one
+        for (int i = 0; i < kMostSteps; ++i) {
+            low = std::max(low, least_depth().distance);
+            if (high - low <= kAccuracy * high + 4 * rounding)
+                return;
+            const double corners = depth_of_corners(),
+                         over = corners * (1 + kAccuracyAtCorner) + rounding,
+                         under = corners * (1 - kAccuracyAtCorner) - 2 * rounding;
+            double next = 0.5 * (low + high);
+            if (is_corner && low < over && over < high)
+                next = over;
+            else if (low < under && under < high)
+                next = under;
+            else if (low > 0)
+                next = std::min(next, growth * low);
+            if (within_limit(next) == Proof::holds) {
+                high = next;
+            } else {
+                is_corner = is_corner && next != over;
+                growth *= next == growth * low ? growth : 1;
+                low = next;
+            }
         }
-        if (low > 0 && reach_by(&SheetParts::reach_beyond).low < low)
-            within_limit(low);
     }
 
     const Vec3 origin_;

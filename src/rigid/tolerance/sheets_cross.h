@@ -27,7 +27,7 @@ struct SheetOverlap {
 /// Accuracy    `within`: `open` if the budget of a search is used up. A length that differs from the
 ///             tolerance by less than the rounding counts as the tolerance. `depth`: reached at the point,
 ///             and less than the rounding too small where the farthest point is a corner of a part; else
-///             at most 2^-12 of it too small. It is the same for any triangles of the same surfaces. If a
+///             at most 2^-15 of it too small. It is the same for any triangles of the same surfaces. If a
 ///             budget is used up, it may be less.
 /// Cost        O(n log n) for surfaces of n triangles, and a search for each part beside a curve. All of
 ///             that again for each factor of 8 between the tolerance and the depth.
