@@ -232,13 +232,14 @@ MeetingKind meeting_kind(PartPair& pair, std::span<const Contact> contacts, cons
         result.penetration = depth_of(a, b, contacts, touch);
     if (touch == 0)
         return result;
-    Proof within = Proof::holds;
-    if (!sheets_only)
-        within = overlaps_at_most(a, b, contacts, touch, result.penetration);
+    const bool is_deep = result.penetration.depth > touch + rounding_of_lengths(a, b);
+    Proof within = is_deep ? Proof::fails : Proof::holds;
     SheetsOfPair sheets(a, b);
-    if (within != Proof::fails && meeting.interpenetrate &&
+    if (!is_deep && meeting.interpenetrate &&
         std::ranges::any_of(contacts, [&](const Contact& c) { return sheets.have(c); }))
-        within = both_hold(within, cross_at_most(pair, sheets, touch, result.penetration));
+        within = cross_at_most(pair, sheets, touch, result.penetration);
+    if (within != Proof::fails && !sheets_only)
+        within = both_hold(within, overlaps_at_most(a, b, contacts, touch, result.penetration));
     if (within != Proof::fails)
         result.kind = within == Proof::holds ? ClashKind::touch : ClashKind::undecided;
     return result;
