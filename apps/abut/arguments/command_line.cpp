@@ -2,6 +2,7 @@
 
 #include <abut/error.h>
 
+#include "arguments/common.h"
 #include "arguments/verb.h"
 
 #include <algorithm>
@@ -26,6 +27,15 @@ bool is_option(const std::string& word) {
 /// Returns the option's name: "--out" for "--out=FOLDER".
 std::string name_of_option(const std::string& word) {
     return word.substr(0, word.find('='));
+}
+
+/// Returns the word in lower case and without leading dashes, because case and dashes are mistyped
+/// most often.
+std::string bare(const std::string& word) {
+    std::string letters = word.substr(std::min(word.find_first_not_of('-'), word.size()));
+    std::ranges::transform(letters, letters.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return letters;
 }
 
 std::vector<OptionFacts> all_options(const CLI::App& app) {
@@ -68,7 +78,47 @@ bool are_options(const CLI::App& verb, const Words& words, std::size_t end) {
     return at == end;
 }
 
-/// Refuses options that the verb does not have, and a last option that lacks its value.
+/// Returns the first option whose help names a file of a type: "--csv" is one of the files of --out.
+const OptionFacts* find_file_type(const std::vector<OptionFacts>& options,
+                                  const std::string& type) {
+    const auto names_one = [&](const OptionFacts& option) {
+        const std::string& brief = option.brief;
+        const std::size_t at = brief.find("." + type), end = at + 1 + type.size();
+        return at != std::string::npos &&
+               (end == brief.size() || std::isalnum(static_cast<unsigned char>(brief[end])) == 0);
+    };
+    const auto found = std::ranges::find_if(options, names_one);
+    return found == options.end() ? nullptr : &*found;
+}
+
+[[noreturn]] void refuse_option(const CLI::App& verb, const std::vector<OptionFacts>& options,
+                                const std::string& name) {
+    Words names;
+    for (const OptionFacts& option : options)
+        names.insert(names.end(), option.names.begin(), option.names.end());
+    const std::string like = most_like(name, names);
+    std::string hint = fmt::format("see abut {} --help", verb.get_name());
+    if (!like.empty())
+        hint = fmt::format("did you mean {}?", like);
+    else if (const OptionFacts* const option = find_file_type(options, bare(name)))
+        hint = fmt::format("did you mean {}? {}", option->names.back(), option->brief);
+    throw Error(ErrorCode::bad_argument, fmt::format("unknown option '{}' ({})", name, hint));
+}
+
+/// Refuses a unit that is a word of its own: it would be taken for a file.
+void refuse_lone_unit(const OptionFacts& option, const Words& words, std::size_t at) {
+    if (option.value != "LENGTH" || at + 2 >= words.size() || !parse_number(words[at + 1]))
+        return;
+    const std::string joined = words[at + 1] + words[at + 2];
+    const bool is_unit = !parse_number(joined) && parse_length(joined) &&
+                         std::isalpha(static_cast<unsigned char>(words[at + 2][0])) != 0;
+    if (is_unit)
+        throw Error(ErrorCode::bad_argument,
+                    fmt::format("{}: write {} without a space", option.names.back(), joined));
+}
+
+/// Refuses options that the verb does not have, a last option that lacks its value, and a length
+/// whose unit stands apart.
 void refuse_wrong_options(const CLI::App& verb, const Words& words) {
     const std::vector<OptionFacts> options = all_options(verb);
     for (std::size_t at = 0; at < words.size();) {
@@ -78,19 +128,13 @@ void refuse_wrong_options(const CLI::App& verb, const Words& words) {
         if (at + count > words.size())
             throw Error(ErrorCode::bad_argument, fmt::format("{} needs a value: {}", words[at],
                                                              find(options, words[at])->value));
+        if (count == 2)
+            refuse_lone_unit(*find(options, name_of_option(words[at])), words, at);
         if (count > 0) {
             at += count;
             continue;
         }
-        const std::string name = name_of_option(words[at]);
-        Words names;
-        for (const OptionFacts& option : options)
-            names.insert(names.end(), option.names.begin(), option.names.end());
-        const std::string like = most_like(name, names);
-        throw Error(ErrorCode::bad_argument,
-                    fmt::format("unknown option '{}' ({})", name,
-                                like.empty() ? fmt::format("see abut {} --help", verb.get_name())
-                                             : fmt::format("did you mean {}?", like)));
+        refuse_option(verb, options, name_of_option(words[at]));
     }
 }
 
@@ -148,15 +192,6 @@ std::size_t edits(const std::string& a, const std::string& b) {
         }
     }
     return d[a.size()][b.size()];
-}
-
-/// Returns the word in lower case and without leading dashes, because case and dashes are mistyped
-/// most often.
-std::string bare(const std::string& word) {
-    std::string letters = word.substr(std::min(word.find_first_not_of('-'), word.size()));
-    std::ranges::transform(letters, letters.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return letters;
 }
 
 } // namespace

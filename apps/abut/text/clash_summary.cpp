@@ -165,11 +165,11 @@ std::string models_text(const ClashReport& report) {
         widest = std::max(widest, shown(model.file).size());
     std::string text;
     for (const auto& model : report.models)
-        text +=
-            fmt::format("{:<{}}  {:>9} parts  {:>12} triangles  {} m a unit, {} up\n",
-                        shown(model.file), widest, grouped(model.parts), grouped(model.triangles),
-                        number(model.unit), abut::to_string(model.up)) +
-            in_words(model.notes, "  ");
+        text += fmt::format("{:<{}}  {:>9} {}  {:>12} triangles  {} m a unit, {} up\n",
+                            shown(model.file), widest, grouped(model.parts),
+                            model.parts == 1 ? "part " : "parts", grouped(model.triangles),
+                            number(model.unit), abut::to_string(model.up)) +
+                in_words(model.notes, "  ");
     return text;
 }
 

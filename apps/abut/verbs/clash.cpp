@@ -119,6 +119,8 @@ std::string text_of(const StoreClashReport& found, const ClashOptions& options, 
         text += problems_text(found.report, *problems);
     if (outputs)
         text += fmt::format("\nreport      {}, .json, .csv\n", shown(outputs->path("report.html")));
+    else if (!found.report.clashes.empty())
+        text += "\nlist        --out FOLDER writes all of them: a page, JSON and CSV\n";
     return text;
 }
 

@@ -123,7 +123,7 @@ std::string types_in_group(const GroupFacts& facts, const ClashGroup& group, std
         const auto [a, b] = facts.clashes[clash].part;
         std::string type = a == part || b == part ? facts.part(a == part ? b : a).type
                                                   : property_of_clash(facts, clash, GroupBy::types);
-        ++counts[type.empty() ? "parts" : type];
+        ++counts[type.empty() ? "untyped" : type];
     }
     return most_frequent(counts, kMostTypes);
 }

@@ -25,7 +25,9 @@ Verdict verdict_of(int status) {
     case SQLITE_CORRUPT:
         return {ErrorCode::malformed, "is damaged"};
     case SQLITE_NOTADB:
-        return {ErrorCode::malformed, "is not an Abut store, or its first page is damaged"};
+        return {ErrorCode::malformed,
+                "is not an Abut store (abut import makes one of models), or its "
+                "first page is damaged"};
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
         return {ErrorCode::unreadable, "is in use by another process"};

@@ -63,6 +63,8 @@ TEST_F(Usage, MistypedNamesGetSuggestions) {
         {{"clash", box_, "--output", "x"}, "(did you mean --out?)"},
         {{"--jsno", "clash", box_}, "(did you mean --json?)"},
         {{"collide", box_, box_, "--posse-b", "1"}, "(did you mean --pose-b?)"},
+        {{"clash", box_, "--csv", "x"}, "(did you mean --out? Folder for report.html"},
+        {{"clash", box_, "--clearance", "50", "mm"}, "--clearance: write 50mm without a space"},
         {{"collide", box_, box_, "--zzzzzzzz"}, "(see abut collide --help)"},
         {{"zzzzzzzz"}, "(see abut --help)"},
     };
