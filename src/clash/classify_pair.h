@@ -16,6 +16,9 @@ struct ClashPart {
     const ModelBlocks* blocks = nullptr; ///< null if the part is one model
     const Transform& world_from_mesh;
     const Box3& box; ///< world
+    /// How far points may lie from where they were, because a file rounds them; metres. Both parts'
+    /// together: open surfaces that are closer are one.
+    double rounding = 0;
 };
 
 /// Returns the clash of two parts, or none. All members are filled in except the ids, models, parts,

@@ -163,7 +163,7 @@ SheetOverlap overlap_if_moved(const ClashPart& a, const ClashPart& b, const Vec3
                               const std::function<bool(const Contact&)>& are_sheets) {
     Transform world = b.world_from_mesh;
     world.m[9] += by.x, world.m[10] += by.y, world.m[11] += by.z;
-    const ClashPart moved{b.model, b.blocks, world, grown(b.box, length(by))};
+    const ClashPart moved{b.model, b.blocks, world, grown(b.box, length(by)), b.rounding};
     const auto decide = [&](PartPair&& pair) {
         std::vector<Contact> contacts;
         pair.for_each_contact([&](const Contact& contact) {
@@ -171,7 +171,8 @@ SheetOverlap overlap_if_moved(const ClashPart& a, const ClashPart& b, const Vec3
                 contacts.push_back(contact);
         });
         SheetOverlap overlap =
-            overlap_of_sheets(pair.a().solid(), pair.b().solid(), contacts, touch);
+            overlap_of_sheets(pair.a().solid(), pair.b().solid(), contacts,
+                              {.tolerance = touch, .rounding = a.rounding + b.rounding});
         if (overlap.of_b)
             overlap.point = overlap.point - by;
         return overlap;

@@ -23,7 +23,13 @@ std::optional<LeftOut> why_left_out(const Clash& clash, bool tolerated, const Pa
 PairAnswer test_pair(const ClashPart& a, std::string_view id_a, const ClashPart& b,
                      std::string_view id_b, const PairTerms& terms) {
     PairAnswer answer;
-    answer.clash = classify_by_id(a, id_a, b, id_b, terms.clearance, terms.touch);
+    const auto classify = [&](double clearance, double touch) {
+        const double rounding = 0.5 * terms.rounding;
+        return classify_by_id({a.model, a.blocks, a.world_from_mesh, a.box, rounding}, id_a,
+                              {b.model, b.blocks, b.world_from_mesh, b.box, rounding}, id_b,
+                              clearance, touch);
+    };
+    answer.clash = classify(terms.clearance, terms.touch);
     if (!answer.clash)
         return answer;
     answer.clash->neighbours = terms.neighbours;
@@ -36,9 +42,8 @@ PairAnswer test_pair(const ClashPart& a, std::string_view id_a, const ClashPart&
             return true;
         if (answer.clash->kind != ClashKind::hard && answer.clash->kind != ClashKind::undecided)
             return false;
-        const std::optional<Clash> met = terms.tolerated > terms.touch
-                                             ? classify_by_id(a, id_a, b, id_b, 0, terms.tolerated)
-                                             : answer.clash;
+        const std::optional<Clash> met =
+            terms.tolerated > terms.touch ? classify(0, terms.tolerated) : answer.clash;
         return met && met->kind == ClashKind::touch;
     };
     answer.left_out = why_left_out(*answer.clash, is_tolerated(), terms);

@@ -181,6 +181,7 @@ PairTerms RuleTable::terms_of(const ClashRule* rule, std::size_t i, std::size_t 
         terms.rule = rule;
     }
     terms.touch = touch ? *touch : precision_.tolerance(i, k);
+    terms.rounding = precision_.rounding(i, k);
     return terms;
 }
 

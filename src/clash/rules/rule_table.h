@@ -37,6 +37,7 @@ struct PairTerms {
     std::uint8_t kinds = 0xff;       ///< bit k: clashes of ClashKind k are reported
     std::optional<Neighbours> neighbours{};
     const ClashRule* rule = nullptr; ///< null if there are neither rules nor a matrix
+    double rounding = 0;             ///< metres; as PairPrecision::rounding
 };
 
 /// The terms of a pair, or why it is not tested.

@@ -228,10 +228,6 @@ Clash clash_again(const Store& store, const NamedGeometry& named) {
     std::array<std::optional<Model>, 2> models;
     for (std::size_t i = 0; i < 2; ++i)
         models.at(i) = Model(store.file().read_mesh(named.parts[i].row.mesh));
-    const auto part = [&](std::size_t i) {
-        const PartRow& row = named.parts[i].row;
-        return ClashPart{&*models.at(i), nullptr, row.world_from_mesh, row.box};
-    };
     Box3 both = named.parts[0].row.box;
     extend(both, named.parts[1].row.box.lower);
     extend(both, named.parts[1].row.box.upper);
@@ -243,6 +239,11 @@ Clash clash_again(const Store& store, const NamedGeometry& named) {
         precision.add(place.model, of_model.stated,
                       single_rounding(of_model, reach, row.world_from_mesh));
     }
+    const auto part = [&](std::size_t i) {
+        const PartRow& row = named.parts[i].row;
+        return ClashPart{&*models.at(i), nullptr, row.world_from_mesh, row.box,
+                         0.5 * precision.rounding(0, 1)};
+    };
     std::optional<Clash> clash =
         classify_by_id(part(0), named.parts[0].row.id, part(1), named.parts[1].row.id, farthest,
                        precision.tolerance(0, 1));

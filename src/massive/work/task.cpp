@@ -49,8 +49,11 @@ public:
     TermsOfTask(Task& task, const RuleTable& rules) : task_(task), rules_(rules) {}
 
     void set(const IndexPair& pair, Task::Pair& of_task) {
-        PairTerms terms = rules_.terms(pair.a(), pair.b()).value_or(PairTerms());
+        PairTerms terms;
+        if (const auto known = rules_.terms(pair.a(), pair.b()))
+            terms = *known;
         of_task.touch = std::exchange(terms.touch, 0);
+        of_task.rounding = std::exchange(terms.rounding, 0);
         const ClashRule* const rule = std::exchange(terms.rule, nullptr);
         const auto [at, is_new] = places_.try_emplace({rule, terms.neighbours}, places_.size());
         if (is_new)
@@ -62,7 +65,7 @@ public:
 private:
     Task& task_;
     const RuleTable& rules_;
-    /// Pairs of one rule have equal terms, but for their neighbours and touch tolerances.
+    /// Pairs of one rule have equal terms, but for their neighbours, touch tolerances and roundings.
     std::map<std::pair<const ClashRule*, std::optional<Neighbours>>, std::uint32_t> places_;
 };
 
@@ -98,7 +101,7 @@ Task make_task(const StoredParts& stored, const std::vector<WorkUnit>& units, st
         task.parts.push_back({p.row, mesh, p.model});
     }
     for (const IndexPair& pair : work.pairs)
-        task.pairs.push_back({place_of(parts, pair.a()), place_of(parts, pair.b()), 0, 0, 0});
+        task.pairs.push_back({place_of(parts, pair.a()), place_of(parts, pair.b()), 0, 0, 0, 0});
     if (rules != nullptr) {
         TermsOfTask terms(task, *rules);
         for (std::size_t k = 0; k < work.pairs.size(); ++k)

@@ -30,14 +30,14 @@ struct Task {
         std::uint32_t model = 0; ///< index in the store's models
     };
     struct Pair {
-        std::uint32_t a = 0, b = 0; ///< indices in parts
-        std::uint32_t terms = 0;    ///< index in terms
-        std::uint32_t unused = 0;   ///< so that a pair has no padding
-        double touch = 0;           ///< takes the place of the terms' own
+        std::uint32_t a = 0, b = 0;     ///< indices in parts
+        std::uint32_t terms = 0;        ///< index in terms
+        std::uint32_t unused = 0;       ///< so that a pair has no padding
+        double touch = 0, rounding = 0; ///< take the place of the terms' own
     };
     /// How pairs are tested and reported.
     struct Terms {
-        PairTerms numbers; ///< without the rule; touch is that of each pair
+        PairTerms numbers; ///< without the rule; touch and rounding are those of each pair
         std::string rule, severity;
     };
     static constexpr std::uint32_t kNoUse = UINT32_MAX;

@@ -85,6 +85,7 @@ PairAnswer TaskTester::test(const Loaded& loaded, const Task::Pair& pair) const 
     };
     PairTerms numbers = terms.numbers;
     numbers.touch = pair.touch;
+    numbers.rounding = pair.rounding;
     PairAnswer answer = test_pair(placed(a, pair.a), a.id, placed(b, pair.b), b.id, numbers);
     if (answer.clash) {
         answer.clash->rule = terms.rule;

@@ -23,6 +23,8 @@ constexpr std::uint32_t kBudget = 20'000;
 /// Positions that are no farther apart than this many lengths by which one sheet is moved are one. A
 /// corner of a line in which triangles cross is off by at most 2^-36 of an edge.
 constexpr double kNear = 8;
+/// The same for the rounding of the surfaces: borders in one line before are then as one.
+constexpr double kNearByRounding = 2;
 /// A curve that is not larger than this many such lengths may be there only because of the shift.
 constexpr double kTinyCurve = 4;
 
@@ -37,15 +39,15 @@ constexpr double kAccuracyAtCorner = 0x1p-30;
 class SheetPair {
 public:
     SheetPair(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts,
-              double tolerance)
+              const SheetSearch& search)
         : origin_(a.world_triangle(contacts[0].pair.a)[0]),
-          near_(kNear * length(sheet_shift(a, b))), sheets_{Sheet(a, origin_, near_),
-                                                            Sheet(b, origin_, near_)},
+          near_(std::max(kNear * length(sheet_shift(a, b)), kNearByRounding * search.rounding)),
+          sheets_{Sheet(a, origin_, near_), Sheet(b, origin_, near_)},
           surfaces_{a.seen_from(origin_), b.seen_from(origin_)},
           borders_{SheetBorder(sheets_[0], *surfaces_[0], near_),
                    SheetBorder(sheets_[1], *surfaces_[1], near_)},
           distances_{CornerDistances(*surfaces_[0]), CornerDistances(*surfaces_[1])},
-          tolerance_(tolerance) {
+          tolerance_(search.tolerance) {
         options_ = {.rounding = depth_rounding(a, b) + length(sheet_shift(a, b)),
                     .both_sides = true,
                     .budget = kBudget};
@@ -218,8 +220,8 @@ private:
 } // namespace
 
 SheetOverlap overlap_of_sheets(const WorldSolid& a, const WorldSolid& b,
-                               std::span<const Contact> contacts, double tolerance) {
-    return contacts.empty() ? SheetOverlap{} : SheetPair(a, b, contacts, tolerance).overlap();
+                               std::span<const Contact> contacts, const SheetSearch& search) {
+    return contacts.empty() ? SheetOverlap{} : SheetPair(a, b, contacts, search).overlap();
 }
 
 Vec3 sheet_shift(const WorldSolid& a, const WorldSolid& b) {

@@ -22,7 +22,12 @@ struct SheetOverlap {
     bool of_b = false; ///< whether the point is on b
 };
 
-/// In          contacts: all. `tolerance` is positive. No vertex of one surface lies on the other one:
+struct SheetSearch {
+    double tolerance = 0; ///< positive
+    double rounding = 0;  ///< how far the surfaces' points may lie from where they were, together
+};
+
+/// In          contacts: all. No vertex of one surface lies on the other one:
 ///             sheet_shift() moves b so that this is true.
 /// Accuracy    `within`: `open` if the budget of a search is used up. A length that differs from the
 ///             tolerance by less than the rounding counts as the tolerance. `depth`: reached at the point,
@@ -32,7 +37,7 @@ struct SheetOverlap {
 /// Cost        O(n log n) for surfaces of n triangles, and a search for each part beside a curve. All of
 ///             that again for each factor of 8 between the tolerance and the depth.
 SheetOverlap overlap_of_sheets(const WorldSolid& a, const WorldSolid& b,
-                               std::span<const Contact> contacts, double tolerance);
+                               std::span<const Contact> contacts, const SheetSearch& search);
 
 /// Returns a vector by which one of two surfaces is moved, so that their vertices and edges are in
 /// general position: 2^-40 of the pair's size, in a fixed direction.

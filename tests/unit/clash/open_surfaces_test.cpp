@@ -136,6 +136,43 @@ TEST(OpenSurfaces, WallsOnSomeSidesOfAFloor) {
         }
 }
 
+/// A mesh with its positions turned and rounded to single precision, as many files have them.
+Mesh rounded(Mesh mesh, const Pose& turn) {
+    const Transform world = turn;
+    for (Vec3& p : mesh.positions) {
+        p = apply(world, p);
+        p = {double{static_cast<float>(p.x)}, double{static_cast<float>(p.y)},
+             double{static_cast<float>(p.z)}};
+    }
+    return mesh;
+}
+
+TEST(OpenSurfaces, TwoWallsWhoseBordersAreInOneLineButForRounding) {
+    // A plate lies between the walls, passes through one of them, and leaves both over their ends. Half-way
+    // between the walls it is farthest; beyond the ends it goes 2 on.
+    const auto wall = [](double x) {
+        return grid_mesh(1, 1, false, false, [&](double u, double v) {
+            return Vec3{x, u, -0.75 + 1.5 * v};
+        });
+    };
+    const Mesh walls = joined(wall(0), wall(1)),
+               plate = grid_mesh(1, 1, false, false, [](double u, double v) {
+                   return Vec3{-1 + 1.875 * u, 0.5 + 2.5 * v, 0};
+               });
+    constexpr double kRounding = 0x1p-22; // of points no farther than 4
+    for (int i = 0; i < 20; ++i) {
+        SCOPED_TRACE(i);
+        const double angle = 0.1 + 0.3 * i;
+        const Pose turn{{}, {std::cos(angle), 0.3 * std::sin(angle), std::sin(angle), 0.1 * i}};
+        const Mesh a = rounded(walls, turn), b = rounded(plate, turn);
+        const auto above = classified(a, b, 0.55, {}, {}, 0, kRounding),
+                   below = classified(b, a, 0.45, {}, {}, 0, kRounding);
+        ASSERT_EQ(kind_word(above), "touch");
+        ASSERT_EQ(kind_word(below), "hard");
+        ASSERT_NEAR(below->distance, -0.5, 1e-5);
+    }
+}
+
 TEST(OpenSurfaces, APlateBesideAFlange) {
     // The plate passes through the leg of an L, 0.125 over its flange, and ends over the flange's end,
     // or goes on beyond it. Over either end of the L, or at its own, it leaves the L sideways.
