@@ -183,7 +183,8 @@ bool SheetBorder::is_nowhere_nearest(const FaceSide& side, const LinePiece& line
 double SheetBorder::end_of_part(const FaceSide& side, const LinePiece& chord, double in, double out,
                                 Search& search) const {
     constexpr int kHalvings = 50, kMostNearer = 64;
-    // What is nearer there may be farther at a place between, where another triangle is nearer.
+    // The triangle that is nearer at `out` tells a place where it no longer is. Another triangle may be
+    // nearer there, and then tells the next place.
     bool is_in = is_nearest(side, at(chord, out), search);
     for (int i = 0; i < kMostNearer && !is_in; ++i) {
         const Triangle nearer = surface_.world_slot(search.nearer);

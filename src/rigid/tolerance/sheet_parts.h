@@ -51,8 +51,7 @@ private:
     };
     const WorldSolid& surface_;
     std::map<Vec3, double, Before> known_;
-    std::optional<std::uint32_t>
-        last_; ///< the slot nearest to the last corner: likely near the next
+    std::optional<std::uint32_t> last_; ///< slot nearest to the last corner, likely near the next
 };
 
 /// Another sheet, as a sheet is divided along it.
@@ -81,10 +80,10 @@ public:
     Proof ends_within(std::uint32_t curve, double limit);
     /// As ends_within(), for the corners of the sheet's pieces alone.
     bool corners_end_within(std::uint32_t curve, double limit);
-    /// How far it goes on the side on which it goes less far, the greatest along the curve: at least as
-    /// far, by a point that was found.
+    /// Returns the farthest point that was found on the side on which the sheet goes less far, the greatest
+    /// along the curve. So the sheet goes at least that far.
     [[nodiscard]] FarPoint least_reach(std::uint32_t curve) const;
-    /// The same of the corners; infinite if parts are not walked to their ends.
+    /// Returns how far the corners go on that side. It is infinite if a part is not walked to its end.
     [[nodiscard]] double reach_of_corners(std::uint32_t curve) const;
 
 private:

@@ -23,14 +23,15 @@ constexpr std::uint32_t kBudget = 20'000;
 /// Positions that are no farther apart than this many lengths by which one sheet is moved are one. A
 /// corner of a line in which triangles cross is off by at most 2^-36 of an edge.
 constexpr double kNear = 8;
-/// The same for the rounding of the surfaces: borders in one line before are then as one.
+/// Positions that are no farther apart than this many roundings of the surfaces are one, too: each may
+/// lie off by one. So borders that were in one line before a file rounded them are in one line.
 constexpr double kNearByRounding = 2;
 /// A curve that is not larger than this many such lengths may be there only because of the shift.
 constexpr double kTinyCurve = 4;
 
 /// By which factor a length grows until the depth is not more.
 constexpr double kStep = 8;
-/// The relative accuracy of a depth that no corner reaches.
+/// The relative accuracy of a depth that no corner reaches: the four digits that are printed are right.
 constexpr double kAccuracy = 0x1p-15;
 /// Relative distances from the depth of a corner at which it is proven to be the depth.
 constexpr double kAccuracyAtCorner = 0x1p-30;

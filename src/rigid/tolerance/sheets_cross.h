@@ -22,6 +22,7 @@ struct SheetOverlap {
     bool of_b = false; ///< whether the point is on b
 };
 
+/// What overlap_of_sheets() is asked.
 struct SheetSearch {
     double tolerance = 0; ///< positive
     double rounding = 0;  ///< how far the surfaces' points may lie from where they were, together
@@ -34,8 +35,8 @@ struct SheetSearch {
 ///             and less than the rounding too small where the farthest point is a corner of a part; else
 ///             at most 2^-15 of it too small. It is the same for any triangles of the same surfaces. If a
 ///             budget is used up, it may be less.
-/// Cost        O(n log n) for surfaces of n triangles, and a search for each part beside a curve. All of
-///             that again for each factor of 8 between the tolerance and the depth.
+/// Cost        O(n log n) for surfaces of n triangles, and some searches of each part beside a curve: one
+///             for each length with which the depth is compared, up to 100.
 SheetOverlap overlap_of_sheets(const WorldSolid& a, const WorldSolid& b,
                                std::span<const Contact> contacts, const SheetSearch& search);
 
