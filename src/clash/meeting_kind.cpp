@@ -236,9 +236,9 @@ MeetingKind meeting_kind(PartPair& pair, std::span<const Contact> contacts, cons
     const bool is_deep = result.penetration.depth > touch + rounding_of_lengths(a, b);
     Proof within = is_deep ? Proof::fails : Proof::holds;
     SheetsOfPair sheets(a, b);
-    if (!is_deep && meeting.interpenetrate &&
+    if (meeting.interpenetrate &&
         std::ranges::any_of(contacts, [&](const Contact& c) { return sheets.have(c); }))
-        within = cross_at_most(pair, sheets, touch, result.penetration);
+        within = both_hold(within, cross_at_most(pair, sheets, touch, result.penetration));
     if (within != Proof::fails && !sheets_only)
         within = both_hold(within, overlaps_at_most(a, b, contacts, touch, result.penetration));
     if (within != Proof::fails)

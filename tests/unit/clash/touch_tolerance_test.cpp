@@ -315,6 +315,17 @@ TEST(TouchTolerance, SheetsOfPartsThatAlsoHoldSolids) {
     }
 }
 
+TEST(TouchTolerance, TheDepthOfSolidsAndSheetsDoesNotDependOnTheTolerance) {
+    // The boxes have 0.5 mm in common, the sheets go 0.3 m beyond each other.
+    const Mesh first = joined(sheet_mesh(-0.3, 1, 3), box_mesh({8, 0, 0}, {9, 1, 1})),
+               second = joined(floor_mesh(4), box_mesh({8.9995, 0.25, 0.25}, {10, 0.75, 0.75}));
+    for (const double t : {1e-5, 1e-4, 1e-3, 0.01, 0.1})
+        for (const auto& clash : {classified(first, second, t), classified(second, first, t)}) {
+            EXPECT_EQ(word_of(kind_of(clash)), "hard") << t;
+            EXPECT_NEAR(clash->distance, -0.3, 1e-9) << t;
+        }
+}
+
 TEST(TouchTolerance, FinsWithoutAThicknessAreSheets) {
     // Each fin has two sides, whose triangles are the same or not, and shares corners with a box.
     const double t = 1e-3;
