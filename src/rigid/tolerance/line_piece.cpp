@@ -4,9 +4,8 @@
 
 namespace abut {
 
-std::optional<LineSpan> common_span(const LinePiece& piece, const LinePiece& other, double near,
-                                    double longer_than) {
-    const Vec3 along = normalized_or_zero(piece.q - piece.p);
+std::optional<LineSpan> common_span(const LinePiece& piece, const Vec3& along,
+                                    const LinePiece& other, double near, double longer_than) {
     Vec3 first = other.p, last = other.q;
     double begin = dot(first - piece.p, along), end = dot(last - piece.p, along);
     if (end < begin)

@@ -26,8 +26,10 @@ struct LineSpan {
 
 /// Returns the part of a piece along which another one lies within `near`, if it is longer than
 /// `longer_than`. The other one may be directed either way.
-std::optional<LineSpan> common_span(const LinePiece& piece, const LinePiece& other, double near,
-                                    double longer_than);
+///
+/// In          along: the unit vector from the piece's first point to its last one.
+std::optional<LineSpan> common_span(const LinePiece& piece, const Vec3& along,
+                                    const LinePiece& other, double near, double longer_than);
 
 /// Returns the parts of a span that no cover comes within `near` of, if they are longer than twice that.
 std::vector<LineSpan> uncovered(const LineSpan& span, std::vector<LineSpan> covers, double near);

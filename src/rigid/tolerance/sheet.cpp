@@ -110,15 +110,15 @@ void Sheet::connect() {
 std::vector<FaceSide> border_of(const Sheet& sheet, double near) {
     std::vector<FaceSide> border;
     for (const FaceSide& side : sheet.loose_sides()) {
+        const Vec3 along = normalized_or_zero(side.line.q - side.line.p);
         std::vector<LineSpan> covers;
         sheet.for_each_loose(grown(box_of(side.line), near), [&](std::uint32_t i) {
             const FaceSide& other = sheet.loose_sides()[i];
             if (same_side(other.inward, side.inward))
                 return;
-            if (const auto span = common_span(side.line, other.line, near, 2 * near))
+            if (const auto span = common_span(side.line, along, other.line, near, 2 * near))
                 covers.push_back(*span);
         });
-        const Vec3 along = normalized_or_zero(side.line.q - side.line.p);
         for (const LineSpan& open : uncovered({0, length(side.line.q - side.line.p)}, covers, near))
             border.push_back({{side.line.p + open.from * along, side.line.p + open.to * along},
                               side.inward,

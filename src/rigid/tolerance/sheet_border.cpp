@@ -4,6 +4,7 @@
 #include "geometry/triangle_triangle_distance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -32,14 +33,18 @@ std::optional<LinePiece> chord_of(const Triangle& face, const Vec3& normal, cons
     constexpr double kParallel = 1e-5;
     if (length_sq(cross(normal, across)) < kParallel * kParallel)
         return std::nullopt;
-    std::vector<Vec3> ends;
+    std::array<double, 3> height{};
+    for (std::size_t k = 0; k < 3; ++k)
+        height[k] = dot(face[k] - on_plane, across);
+    std::array<Vec3, 2> ends;
+    std::size_t count = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3 &p = face[k], &q = face[(k + 1) % 3];
-        const double at_p = dot(p - on_plane, across), at_q = dot(q - on_plane, across);
-        if ((at_p < 0) != (at_q < 0))
-            ends.push_back(p + (at_p / (at_p - at_q)) * (q - p));
+        const std::size_t next = (k + 1) % 3;
+        if ((height[k] < 0) != (height[next] < 0))
+            ends[count++] =
+                face[k] + (height[k] / (height[k] - height[next])) * (face[next] - face[k]);
     }
-    return ends.size() == 2 ? std::optional<LinePiece>({ends[0], ends[1]}) : std::nullopt;
+    return count == 2 ? std::optional<LinePiece>({ends[0], ends[1]}) : std::nullopt;
 }
 
 /// Places on a chord at which to ask whether a border edge is nearest, as shares of its length: dense
@@ -65,9 +70,9 @@ std::vector<double> places_on(const LinePiece& chord, const LinePiece& edge) {
     return places;
 }
 
-/// The place on a chord that is nearest to an edge, as a share of its length.
-double nearest_place(const LinePiece& chord, const LinePiece& edge) {
-    return nearest_on_segments(chord.q - chord.p, edge.q - edge.p, edge.p - chord.p).s;
+/// The points of a chord and an edge that are nearest to each other, as shares of their lengths.
+SegmentPoints nearest_places(const LinePiece& chord, const LinePiece& edge) {
+    return nearest_on_segments(chord.q - chord.p, edge.q - edge.p, edge.p - chord.p);
 }
 
 /// Where a chord meets a line in the same face, as a share of its length.
@@ -93,20 +98,21 @@ SheetBorder::SheetBorder(const Sheet& sheet, const WorldSolid& surface, double n
     : surface_(surface), near_(near), sides_(border_of(sheet, near)),
       index_(boxes_of_sides(sides_)) {}
 
-/// Returns whether the surface is nearer to a point than some distance.
-bool SheetBorder::has_nearer(const Vec3& point, double distance, Search& search) const {
+/// Returns a length by which the surface is nearer to a point than a border edge; 0 if it is not nearer.
+double SheetBorder::nearer_by(const FaceSide& side, const Vec3& point, Search& search) const {
+    const double distance = distance_to_line(point, side.line) - near_;
     if (distance <= 0)
-        return false;
+        return 0;
     const auto found =
         surface_.nearest(point, {.bound = distance, .enough = distance, .seed = &search.nearer});
     if (!(found.distance < distance))
-        return false;
+        return 0;
     search.nearer = found.slot;
-    return true;
+    return distance - found.distance;
 }
 
 bool SheetBorder::is_nearest(const FaceSide& side, const Vec3& point, Search& search) const {
-    return !has_nearer(point, distance_to_line(point, side.line) - near_, search);
+    return nearer_by(side, point, search) == 0;
 }
 
 std::vector<DirectedPiece> SheetBorder::ends_on(const OtherFace& face) const {
@@ -171,11 +177,11 @@ void SheetBorder::bridge(Search& search) const {
 /// Returns whether the surface is nearer than a border edge to all points of a line. False if that is not
 /// known.
 bool SheetBorder::is_nowhere_nearest(const FaceSide& side, const LinePiece& line,
-                                     Search& search) const {
-    const Vec3 middle = at(line, 0.5);
-    // From the middle to another point, neither distance changes by more than half the line's length.
-    const double change = length(line.q - line.p);
-    return has_nearer(middle, distance_to_line(middle, side.line) - change - near_, search);
+                                     const Search& search) const {
+    // The distance from a triangle is convex: at an end of the line it is the largest.
+    const PreparedTriangle& near = surface_.prepared_slot(search.nearer);
+    const double farthest = std::sqrt(std::max(near.distance_sq(line.p), near.distance_sq(line.q)));
+    return farthest < std::sqrt(nearest_places(line, side.line).distance_sq) - near_;
 }
 
 /// Finds where a border edge stops to be what is nearest, between a place of a chord where it is and one
@@ -207,15 +213,24 @@ void SheetBorder::add_lines(std::uint32_t number, const LinePiece& chord, const 
                             Search& search) const {
     const FaceSide& side = sides_[number];
     std::vector<double> places = places_on(chord, side.line);
-    places.push_back(nearest_place(chord, side.line));
+    places.push_back(nearest_places(chord, side.line).s);
     for (const DirectedPiece& crossed : face.crossed)
         if (const auto place = crossing_place(chord, crossed, face.normal, near_))
             places.push_back(*place);
     std::sort(places.begin(), places.end());
     std::vector<bool> is_part;
     is_part.reserve(places.size());
-    for (const double place : places)
-        is_part.push_back(is_nearest(side, at(chord, place), search));
+    double nearer_until = 0; // before this place, the surface is nearer than the edge
+    for (const double place : places) {
+        if (place < nearer_until) {
+            is_part.push_back(false);
+            continue;
+        }
+        const double by = nearer_by(side, at(chord, place), search);
+        is_part.push_back(by == 0);
+        // From place to place, neither distance changes by more than the length between them.
+        nearer_until = place + 0.5 * by / length(chord.q - chord.p);
+    }
     for (std::size_t i = 0, j = 0; i < places.size(); i = j + 1) {
         for (j = i; j + 1 < places.size() && is_part[i] && is_part[j + 1]; ++j) {
         }

@@ -44,10 +44,10 @@ private:
         std::uint32_t nearer = 0;
         std::vector<BorderLine> lines{}; ///< found so far
     };
-    [[nodiscard]] bool has_nearer(const Vec3& point, double distance, Search& search) const;
+    [[nodiscard]] double nearer_by(const FaceSide& side, const Vec3& point, Search& search) const;
     [[nodiscard]] bool is_nearest(const FaceSide& side, const Vec3& point, Search& search) const;
     [[nodiscard]] bool is_nowhere_nearest(const FaceSide& side, const LinePiece& line,
-                                          Search& search) const;
+                                          const Search& search) const;
     [[nodiscard]] double end_of_part(const FaceSide& side, const LinePiece& chord, double in,
                                      double out, Search& search) const;
     void add_lines(std::uint32_t number, const LinePiece& chord, const OtherFace& face,

@@ -4,6 +4,7 @@
 #include "rigid/tolerance/face_cutter.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -14,12 +15,13 @@ namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-/// The largest distance of a polygon's corner from a point.
-double reach_of_polygon(const std::vector<Vec3>& polygon, const Vec3& point) {
-    double reach = 0;
+/// The largest distance of a polygon's point from a triangle: that of a corner, because the distance from
+/// a convex set is convex.
+double reach_from(const std::vector<Vec3>& polygon, const PreparedTriangle& triangle) {
+    double reach_sq = 0;
     for (const Vec3& corner : polygon)
-        reach = std::max(reach, length(corner - point));
-    return reach;
+        reach_sq = std::max(reach_sq, triangle.nearest(corner).distance_sq);
+    return std::sqrt(reach_sq);
 }
 
 void sort_unique(std::vector<std::uint32_t>& numbers) {
@@ -74,11 +76,14 @@ const SheetParts::Face& SheetParts::cut(std::uint32_t number) {
 void SheetParts::add_piece(std::uint32_t face, std::vector<Vec3> polygon) {
     const auto piece = static_cast<std::uint32_t>(pieces_.size());
     std::vector<FaceSide> sides;
+    Box3 box;
+    for (const Vec3& corner : polygon)
+        extend(box, corner);
     for (std::size_t k = 0; k < polygon.size(); ++k) {
         const LinePiece line{polygon[k], polygon[(k + 1) % polygon.size()]};
         sides.push_back({line, left_of(line, own_.normal(face)), piece});
     }
-    pieces_.push_back({face, std::move(polygon), kNone, 0, std::move(sides)});
+    pieces_.push_back({face, std::move(polygon), box, kNone, 0, std::move(sides)});
 }
 
 /// Calls visit(face) for a face, for those that share an edge with it, and for those with a loose edge in
@@ -96,10 +101,11 @@ std::vector<LineSpan> SheetParts::covers_of(const LinePiece& common, std::uint32
     // A line that is near a side is within this of all sides that are near that one.
     const double near = 3 * near_;
     const Box3 box = grown(box_of(common), near);
+    const Vec3 along = normalized_or_zero(common.q - common.p);
     std::vector<LineSpan> covers;
     const auto add = [&](const LinePiece& line) {
         if (overlap(box, box_of(line)))
-            if (const auto cover = common_span(common, line, near, 0))
+            if (const auto cover = common_span(common, along, line, near, 0))
                 covers.push_back({cover->from - near_, cover->to + near_});
     };
     index_.for_each_overlap(box, [&](std::uint32_t i) { add(crossings_[i].line.piece); });
@@ -141,6 +147,8 @@ bool SheetParts::share_free_edge(std::uint32_t p, std::uint32_t q) const {
 
 /// Returns whether two pieces share more than `near` of a side where no line runs.
 bool SheetParts::are_joined(std::uint32_t p, std::uint32_t q) {
+    if (!overlap(grown(pieces_[p].box, near_), pieces_[q].box))
+        return false;
     if (share_free_edge(p, q))
         return true;
     const std::uint32_t of_p = pieces_[p].face, of_q = pieces_[q].face;
@@ -151,7 +159,7 @@ bool SheetParts::are_joined(std::uint32_t p, std::uint32_t q) {
         for (const FaceSide& other : others) {
             if (!overlap(box, box_of(other.line)))
                 continue;
-            const auto span = common_span(side.line, other.line, near_, 2 * near_);
+            const auto span = common_span(side.line, along, other.line, near_, 2 * near_);
             if (!span)
                 continue;
             const LinePiece common{side.line.p + span->from * along,
@@ -209,7 +217,7 @@ void SheetParts::find_sides(const SheetCrossing& crossing) {
         const Face face = cut(number);
         for (std::uint32_t piece = face.first; piece < face.last; ++piece)
             for (const FaceSide& side : sides_of(piece))
-                if (const auto span = common_span(line, side.line, near_, 2 * near_)) {
+                if (const auto span = common_span(line, along, side.line, near_, 2 * near_)) {
                     if (upward == Vec3{}) // the other face is thin
                         upward = side.inward;
                     neighbours.push_back({*span, side, dot(side.inward, upward) > 0});
@@ -260,9 +268,9 @@ void SheetParts::reach(std::uint32_t piece, std::uint32_t number) {
     const std::vector<Vec3>& polygon = pieces_[piece].polygon;
     double farthest = 0, at_most = kUnbounded;
     for (const Vec3& corner : polygon) {
-        const double distance = other_.distances.of(corner);
+        const auto [distance, slot] = other_.distances.of(corner);
         farthest = std::max(farthest, distance);
-        at_most = std::min(at_most, distance + reach_of_polygon(polygon, corner));
+        at_most = std::min(at_most, reach_from(polygon, other_.surface.prepared_slot(slot)));
         part.farthest = std::max(part.farthest, FarPoint{distance, corner});
     }
     pieces_[piece].at_most = at_most;
@@ -289,19 +297,20 @@ void SheetParts::walk(std::uint32_t number, double limit) {
         poll_stop();
         const std::uint32_t piece = parts_[number].edge.top().second;
         parts_[number].edge.pop();
-        Box3 box;
-        for (const Vec3& corner : pieces_[piece].polygon)
-            extend(box, corner);
+        pieces_[piece].is_passed = true;
         std::vector<std::uint32_t> faces;
-        for_each_face_at(pieces_[piece].face, grown(box, near_),
+        for_each_face_at(pieces_[piece].face, grown(pieces_[piece].box, near_),
                          [&](std::uint32_t face) { faces.push_back(face); });
         sort_unique(faces);
         for (const std::uint32_t face : faces) {
             const auto [first, last] = std::pair(cut(face).first, cut(face).last);
+            const bool is_mutual =
+                face == pieces_[piece].face ||
+                std::ranges::count(own_.neighbours(face), pieces_[piece].face) > 0;
             for (std::uint32_t next = first; next < last; ++next) {
                 const bool is_known = pieces_[next].part != kNone;
                 if (next == piece || (is_known && part_of(next) == number) ||
-                    !are_joined(piece, next))
+                    (is_mutual && pieces_[next].is_passed) || !are_joined(piece, next))
                     continue;
                 if (is_known)
                     unite(number, part_of(next));

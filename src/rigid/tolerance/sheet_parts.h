@@ -35,11 +35,15 @@ struct FarPoint {
 class CornerDistances {
 public:
     explicit CornerDistances(const WorldSolid& surface) : surface_(surface) {}
-    double of(const Vec3& corner) {
-        const auto [at, is_new] = known_.try_emplace(corner, 0.0);
+    struct Nearest {
+        double distance = 0;
+        std::uint32_t slot = 0; ///< of the surface
+    };
+    Nearest of(const Vec3& corner) {
+        const auto [at, is_new] = known_.try_emplace(corner);
         if (is_new) {
             const auto nearest = surface_.nearest(corner, {.seed = last_ ? &*last_ : nullptr});
-            at->second = nearest.distance;
+            at->second = {nearest.distance, nearest.slot};
             last_ = nearest.slot;
         }
         return at->second;
@@ -50,7 +54,7 @@ private:
         bool operator()(const Vec3& p, const Vec3& q) const { return is_before(p, q); }
     };
     const WorldSolid& surface_;
-    std::map<Vec3, double, Before> known_;
+    std::map<Vec3, Nearest, Before> known_;
     std::optional<std::uint32_t> last_; ///< slot nearest to the last corner, likely near the next
 };
 
@@ -90,9 +94,11 @@ private:
     struct Piece {
         std::uint32_t face = 0;
         std::vector<Vec3> polygon;
+        Box3 box;
         std::uint32_t part = 0; ///< if it is reached; else kNone
         double at_most = 0; ///< if it is reached: no point of it is farther from the other sheet
         std::vector<FaceSide> sides;
+        bool is_passed = false; ///< the walk went on from it to all pieces that are joined to it
     };
     struct Face {
         bool is_cut = false;

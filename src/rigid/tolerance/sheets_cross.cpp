@@ -77,7 +77,9 @@ public:
 
     SheetOverlap overlap() {
         SheetOverlap result;
-        result.within = within_limit(tolerance_);
+        // Corners tell most of what goes farther, and cost less than a search.
+        const bool are_corners_within = corners_within_limit(tolerance_ + options_.rounding);
+        result.within = are_corners_within ? within_limit(tolerance_) : Proof::fails;
         if (result.within != Proof::open)
             find_depth(result.within);
         const FarPoint farthest = least_depth();
