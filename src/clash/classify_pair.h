@@ -5,6 +5,7 @@
 
 #include "rigid/model/model_blocks.h"
 
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
@@ -20,6 +21,10 @@ struct ClashPart {
     /// together: open surfaces that are closer are one.
     double rounding = 0;
 };
+
+/// The version of the answers that classify_pair() gives. It grows with every change of the program that
+/// alters one, so that a store does not keep the answers of an older program.
+constexpr std::int64_t kAnswersVersion = 1;
 
 /// Returns the clash of two parts, or none. All members are filled in except the ids, models, parts,
 /// rule, severity and neighbours.

@@ -2,6 +2,7 @@
 
 #include <abut/error.h>
 
+#include "clash/classify_pair.h"
 #include "massive/record/clash_history.h"
 #include "massive/record/earlier_answers.h"
 #include "massive/record/job_counts.h"
@@ -19,9 +20,10 @@ namespace abut {
 
 namespace {
 
-/// Returns a key that is equal for jobs of the same question about the same parts.
+/// Returns a key that is equal for jobs of the same question about the same parts, if their answers are
+/// of this version.
 Hash128 job_key(const Hash128& parts, std::int64_t question) {
-    return RowHash().add(parts).add(question).value_128();
+    return RowHash().add(parts).add(question).add(kAnswersVersion).value_128();
 }
 
 } // namespace
@@ -62,6 +64,7 @@ JobRecord::JobRecord(const std::string& store, const StoredParts& stored,
     keep_terms(database_, job_.question, options);
     if (job_.job == 0) {
         job_.key = job_key(parts_, job_.question);
+        job_.answers = kAnswersVersion;
         job_.generation = youngest_generation(stored.models);
         job_.within = stored.models.size() <= 1 || options.self;
         job_.models = models_with_files(stored.models);

@@ -33,7 +33,8 @@ JobRow read_job(Database& database, const Statement& row) {
     job.run = row.integer(7);
     job.planned = row.integer(8) != 0;
     job.finished = row.integer(9);
-    if (job.checksum() != static_cast<std::uint64_t>(row.integer(10)))
+    job.answers = row.integer(10);
+    if (job.checksum() != static_cast<std::uint64_t>(row.integer(11)))
         damaged_job(database, "job " + std::to_string(job.job) + " does not match its checksum");
     return job;
 }
@@ -161,14 +162,14 @@ std::uint64_t JobRow::checksum() const {
     hash.add(job).add(question).add(key).add(generation).add(within);
     for (const auto& [model, file] : models)
         hash.add(model).add(file);
-    return hash.add(candidates).add(run).add(planned).add(finished).value();
+    return hash.add(candidates).add(run).add(planned).add(finished).add(answers).value();
 }
 
 std::vector<JobRow> read_jobs(Database& database) {
     std::vector<JobRow> jobs;
     RowTally tally;
     Statement rows(database, "SELECT job, question, key, generation, within, models, candidates, "
-                             "run, planned, finished, checksum FROM job ORDER BY job");
+                             "run, planned, finished, answers, checksum FROM job ORDER BY job");
     while (rows.step()) {
         jobs.push_back(read_job(database, rows));
         tally.add(jobs.back().checksum());
@@ -188,7 +189,8 @@ std::optional<JobRow> find_finished_job(Database& database, std::int64_t questio
 
 std::optional<JobRow> find_earlier_job(Database& database, const JobRow& job) {
     return find_last(database, [&](const JobRow& other) {
-        return other.question == job.question && other.job != job.job && other.planned;
+        return other.question == job.question && other.answers == job.answers &&
+               other.job != job.job && other.planned;
     });
 }
 
@@ -200,10 +202,10 @@ void put_job(Database& database, JobRow& job) {
     std::vector<std::array<std::uint64_t, 2>> models;
     for (const auto& [model, file] : job.models)
         models.push_back({static_cast<std::uint64_t>(model), file});
-    Statement(database, "INSERT INTO job VALUES (?,?,?,?,?,?,?,?,?,?,?)")
+    Statement(database, "INSERT INTO job VALUES (?,?,?,?,?,?,?,?,?,?,?,?)")
         .bind(job.job, job.question, bytes_of(job.key), job.generation, job.within ? 1 : 0,
               std::as_bytes(std::span<const std::array<std::uint64_t, 2>>(models)), job.candidates,
-              job.run, job.planned ? 1 : 0, job.finished, job.checksum())
+              job.run, job.planned ? 1 : 0, job.finished, job.answers, job.checksum())
         .run();
     RowTally tally = read_tally(database, kJobList);
     tally.add(job.checksum());

@@ -45,7 +45,7 @@ Hash128 question_hash(const ClashOptions& options);
 /// A job: a question about the parts that the store had, and how far its answer has come.
 struct JobRow {
     std::int64_t job = 0, question = 0;
-    Hash128 key;                  ///< hash of the question and the parts
+    Hash128 key; ///< hash of the question, the parts and the version of the answers
     std::uint64_t generation = 0; ///< of the youngest part; changed parts have a later one
     bool within = false;          ///< pairs within one model file were tested too
     /// The number of each model and the hash of its file name.
@@ -54,6 +54,7 @@ struct JobRow {
     std::int64_t run = 0; ///< how often the job was begun or resumed
     bool planned = false;
     std::int64_t finished = 0; ///< end of the job, in seconds since 1970; 0 if it has not ended
+    std::int64_t answers = 0;  ///< their version (kAnswersVersion)
 
     [[nodiscard]] std::uint64_t checksum() const;
 };
@@ -62,7 +63,8 @@ std::vector<JobRow> read_jobs(Database& database);
 std::optional<JobRow> find_job(Database& database, const Hash128& key);
 /// Returns the last finished job of a question, if there is one.
 std::optional<JobRow> find_finished_job(Database& database, std::int64_t question);
-/// Returns the last other job of the same question that has a plan and may thus have answers.
+/// Returns the last other job of the same question and version of answers that has a plan and may thus
+/// have answers.
 std::optional<JobRow> find_earlier_job(Database& database, const JobRow& job);
 /// Adds a job, or replaces its row. A new job (number 0) gets its number.
 void put_job(Database& database, JobRow& job);

@@ -83,6 +83,7 @@ constexpr std::array kOfJobs{
   run INTEGER NOT NULL,
   planned INTEGER NOT NULL,
   finished INTEGER NOT NULL,
+  answers INTEGER NOT NULL,
   checksum INTEGER NOT NULL))"},
     StoreTable{"job_unit", R"(CREATE TABLE job_unit(
   job INTEGER NOT NULL REFERENCES job,
@@ -119,12 +120,12 @@ SELECT h.question, h.id, kind, a, b, a_name, b_name, a_type, b_type, a_file, b_f
     THEN 'new' ELSE 'active' END AS status, resolved, note
 FROM clash_history AS h LEFT JOIN clash_mark AS m USING (id))"};
 
-/// Returns whether the job table was made by the first version, which had no questions and no
-/// generations.
-bool is_of_first_version(Database& database) {
+/// Returns whether the job table was made by an earlier version, which did not tell the version of a
+/// job's answers.
+bool is_of_earlier_version(Database& database) {
     return database.number("SELECT count(*) FROM pragma_table_info('job')") > 0 &&
            database.number(
-               "SELECT count(*) FROM pragma_table_info('job') WHERE name = 'generation'") == 0;
+               "SELECT count(*) FROM pragma_table_info('job') WHERE name = 'answers'") == 0;
 }
 
 bool are_there(Database& database, std::span<const StoreTable> tables) {
@@ -133,7 +134,7 @@ bool are_there(Database& database, std::span<const StoreTable> tables) {
 }
 
 bool has_tables_of_jobs(Database& database) {
-    return !is_of_first_version(database) && are_there(database, kOfJobs) &&
+    return !is_of_earlier_version(database) && are_there(database, kOfJobs) &&
            has_table(database, kStatusView);
 }
 

@@ -21,7 +21,7 @@ struct StoreTable {
 /// Errors      Error{malformed}, naming the store, if there is a foreign table of this name.
 bool has_table(Database& database, const StoreTable& table);
 
-/// Creates the tables that are missing. Job tables of the first version are replaced by empty ones,
+/// Creates the tables that are missing. Job tables of an earlier version are replaced by empty ones,
 /// because jobs can be run again. The marks of users stay. The caller holds a transaction.
 void prepare_job_tables(Database& database);
 /// Returns whether all tables exist.

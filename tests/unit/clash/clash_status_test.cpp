@@ -5,6 +5,7 @@
 
 #include "clash/clash_identity.h"
 #include "clash/classify_pair.h"
+#include "massive/record/job_rows.h"
 #include "massive/record/job_tables.h"
 #include "store/database/sqlite.h"
 #include "tests/support/folder.h"
@@ -179,6 +180,30 @@ TEST_F(JobTables, TablesOfAnotherVersionAreReplacedAndMarksStay) {
     EXPECT_EQ(after.report.clashes[0].status, ClashStatus::active);
     EXPECT_EQ(after.report.clashes[1].status, ClashStatus::approved);
     EXPECT_EQ(after.report.clashes[1].note, "stays");
+    verify_jobs(open_store(store_));
+}
+
+/// A store that a newer Abut is asked about tests all pairs again.
+TEST_F(JobTables, AnswersOfAnotherVersionAreNotTakenOver) {
+    const StoreClashReport before = ask();
+    mark_clashes(open_store(store_, {.read_only = false}),
+                 {{before.report.clashes.at(1).id}, {}, {}, {}});
+    {
+        Database database(store_, OpenMode::read_write);
+        std::vector<JobRow> jobs = read_jobs(database);
+        ASSERT_EQ(jobs.size(), 1U);
+        jobs[0].answers = kAnswersVersion - 1;
+        jobs[0].key = {1, 2}; // that of another version
+        put_job(database, jobs[0]);
+    }
+    verify_jobs(open_store(store_));
+    EXPECT_EQ(review_clashes(open_store(store_)).at(0).clashes.size(), 3U);
+    const StoreClashReport after = ask();
+    EXPECT_EQ(after.counters.recalled_pairs, 0U);
+    ASSERT_EQ(after.report.clashes.size(), 3U);
+    EXPECT_EQ(after.report.clashes[0].status, ClashStatus::active);
+    EXPECT_EQ(after.report.clashes[1].status, ClashStatus::reviewed);
+    EXPECT_EQ(ask().counters.recalled_pairs, 3U);
     verify_jobs(open_store(store_));
 }
 
