@@ -7,8 +7,6 @@
 
 namespace walker {
 
-using namespace abut::vectors;
-
 Walker::Walker(abut::Walk& walk, const abut::Vec3& start, const Settings& settings)
     : walk_(walk), settings_(settings), body_(abut::Capsule{{{0, -0.6, 0}, {0, 0.6, 0}}, 0.3}),
       position_(start) {}

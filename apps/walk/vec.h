@@ -9,13 +9,6 @@
 /// Geometry of the viewer beside abut/vector.h.
 namespace abut::viewer {
 
-using vectors::cross;
-using vectors::dot;
-using vectors::length;
-using vectors::operator+;
-using vectors::operator-;
-using vectors::operator*;
-
 inline Vec3 unit(const Vec3& a) {
     const double l = length(a);
     return l > 0 ? (1 / l) * a : a;

@@ -19,8 +19,6 @@ namespace abut::bench {
 
 namespace {
 
-using vectors::operator+, vectors::operator*;
-
 Mesh unit_mesh(Mesh mesh) {
     normalise(mesh);
     return mesh;

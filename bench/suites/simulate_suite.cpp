@@ -19,8 +19,6 @@ namespace abut::bench {
 
 namespace {
 
-using vectors::length, vectors::operator+, vectors::operator-, vectors::operator*;
-
 struct SimulateOptions {
     std::string mesh;
     std::string only;

@@ -11,8 +11,7 @@ namespace simulation {
 
 using abut::Pose;
 using abut::Vec3;
-using abut::vectors::cross, abut::vectors::dot, abut::vectors::length;
-using abut::vectors::operator+, abut::vectors::operator-, abut::vectors::operator*;
+using abut::cross, abut::dot, abut::length;
 using Quaternion = std::array<double, 4>; ///< w, x, y, z; of unit length
 
 /// A 3x3 matrix by its columns.

@@ -10,7 +10,12 @@ namespace abut {
 struct BodyId {
     std::uint32_t index = std::numeric_limits<std::uint32_t>::max();
     std::uint32_t generation = 0; ///< number of earlier bodies with this index
-    friend bool operator==(const BodyId&, const BodyId&) = default;
+    /// Number of the world among those of the process; 0: not told, so any world takes the id. Two ids
+    /// that differ only in this are equal, so that lists of worlds that were made alike are equal, too.
+    std::uint32_t world = 0;
+    friend bool operator==(const BodyId& a, const BodyId& b) {
+        return a.index == b.index && a.generation == b.generation;
+    }
     friend bool operator<(const BodyId& a, const BodyId& b) {
         return a.index != b.index ? a.index < b.index : a.generation < b.generation;
     }

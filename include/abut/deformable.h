@@ -207,7 +207,11 @@ public:
     [[nodiscard]] const DeformableData& data() const noexcept { return *data_; }
 
 private:
-    std::unique_ptr<DeformableData> data_;
+    /// A second handle to the same surface, which keeps its data.
+    friend std::shared_ptr<const Deformable> shared(const Deformable& surface);
+    explicit Deformable(std::shared_ptr<DeformableData> data);
+
+    std::shared_ptr<DeformableData> data_;
 };
 
 /// Finds every vertex and face, and every two edges, of one surface that meet during the step. Each

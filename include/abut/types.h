@@ -1,14 +1,40 @@
 #pragma once
 
+#if !(__cplusplus >= 202002L || (defined _MSVC_LANG && _MSVC_LANG >= 202002L))
+#error "Abut needs C++20: compile with -std=c++20, or set CMAKE_CXX_STANDARD to 20."
+#endif
+
 #include <array>
 #include <cstdint>
 #include <limits>
 
 namespace abut {
 
-/// A point or a vector, in the model's units.
+/// A point or a vector, in the model's units. abut/vector.h has products and lengths.
 struct Vec3 {
     double x = 0, y = 0, z = 0;
+
+    constexpr Vec3() = default;
+    /// All three or none: so `Sphere{0.5}` is an error, and not a point at x = 0.5.
+    constexpr Vec3(double x_, double y_, double z_) : x(x_), y(y_), z(z_) {}
+
+    friend constexpr Vec3 operator+(const Vec3& a, const Vec3& b) {
+        return {a.x + b.x, a.y + b.y, a.z + b.z};
+    }
+    friend constexpr Vec3 operator-(const Vec3& a, const Vec3& b) {
+        return {a.x - b.x, a.y - b.y, a.z - b.z};
+    }
+    friend constexpr Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
+    friend constexpr Vec3 operator*(double s, const Vec3& a) {
+        return {s * a.x, s * a.y, s * a.z};
+    }
+    friend constexpr Vec3 operator*(const Vec3& a, double s) { return s * a; }
+    friend constexpr Vec3 operator/(const Vec3& a, double s) {
+        return {a.x / s, a.y / s, a.z / s};
+    }
+    constexpr Vec3& operator+=(const Vec3& a) { return *this = *this + a; }
+    constexpr Vec3& operator-=(const Vec3& a) { return *this = *this - a; }
+    constexpr Vec3& operator*=(double s) { return *this = s * *this; }
     friend bool operator==(const Vec3&, const Vec3&) = default;
 };
 

@@ -4,19 +4,9 @@
 
 #include <cmath>
 
-/// Arithmetic on Vec3, for programs that use the library. Import what you need, for example with
-/// `using namespace abut::vectors` in a function.
-namespace abut::vectors {
+/// Products and lengths of vectors.
+namespace abut {
 
-inline Vec3 operator+(const Vec3& a, const Vec3& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-inline Vec3 operator-(const Vec3& a, const Vec3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-inline Vec3 operator*(double s, const Vec3& a) {
-    return {s * a.x, s * a.y, s * a.z};
-}
 inline double dot(const Vec3& a, const Vec3& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -27,4 +17,4 @@ inline double length(const Vec3& a) {
     return std::sqrt(dot(a, a));
 }
 
-} // namespace abut::vectors
+} // namespace abut

@@ -18,6 +18,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 /// Many moving bodies: which of them meet, how near they are, and when they may meet. docs/world.md
@@ -65,7 +66,7 @@ struct BodyGap {
 /// The motion of a body in a step.
 struct BodyMotion {
     BodyId body;
-    Motion motion; ///< while t goes from 0 to 1; it starts at the body's current place
+    Motion motion; ///< while t goes from 0 to 1; it starts at the body's current place, to rounding
 };
 /// A pair of bodies that meet in a step.
 struct BodyImpact {
@@ -93,6 +94,15 @@ struct ScheduleCounters {
     std::uint64_t distance_queries = 0; ///< of those, the ones that boxes and planes did not decide
 };
 
+/// Whether a value can be added to a world with a pose.
+template <typename Shape>
+inline constexpr bool kIsRigidShape =
+    std::is_convertible_v<Shape, Model> || std::is_convertible_v<Shape, Convex> ||
+    std::is_convertible_v<Shape, Sphere> || std::is_convertible_v<Shape, Capsule> ||
+    std::is_convertible_v<Shape, Box3> || std::is_convertible_v<Shape, Cylinder> ||
+    std::is_convertible_v<Shape, Cone> || std::is_convertible_v<Shape, Ellipsoid> ||
+    std::is_convertible_v<Shape, HalfSpace>;
+
 class CollisionSchedule;
 class NearPairs;
 class WorldData;
@@ -100,8 +110,9 @@ class WorldData;
 /// Bodies, the pairs of bodies whose boxes overlap, and exact queries on these pairs.
 ///
 /// A model is a surface; all other shapes are solid, but a deformable surface, which counts as it is
-/// at the start of its step. Models and convex bodies share their data with the
-/// world. A deformable belongs to the caller, who keeps it until the body is removed.
+/// at the start of its step. Models, convex bodies and
+/// deformables share their data with the world. So the caller may move a `Deformable` to another variable;
+/// if it is destroyed or replaced, the body stays as it was.
 ///
 /// Queries with a progress report the fraction of finished pairs, and end with Error{interrupted}
 /// if its stop flag is set; the world is then as `update` leaves it. Changes of a world, `update`
@@ -133,6 +144,12 @@ public:
     BodyId add(const Ellipsoid& ellipsoid, const Pose& pose, const BodyOptions& options = {});
     BodyId add(const HalfSpace& half_space, const Pose& pose, const BodyOptions& options = {});
     BodyId add(const Deformable& surface, const BodyOptions& options = {});
+    /// Nobody could move a temporary.
+    BodyId add(Deformable&& surface, const BodyOptions& options = {}) = delete;
+    /// Names the shapes to a program that adds something else.
+    template <typename Other>
+    requires(!kIsRigidShape<Other>) BodyId
+        add(const Other& other, const Pose& pose, const BodyOptions& options = {});
 
     /// Moves a body.
     ///
@@ -232,7 +249,8 @@ public:
     ///             deformables it is exact; `contact_time` is less than 1e-9 after the first
     ///             contact.
     /// Errors      Error{bad_argument} as `time_of_impact`, naming the body; also if an id is not
-    ///             valid, occurs twice, or is that of a deformable.
+    ///             valid, occurs twice, or is that of a deformable, and if a motion does not start where
+    ///             the body is.
     /// Cost        for a deformable and another body, that of the triangles near the other's path.
     ///             For two deformables, that of `time_of_impact`, and of rebuilding one of them if
     ///             their schemes differ.
@@ -294,5 +312,15 @@ private:
     std::unique_ptr<CollisionSchedule> schedule_;
     std::unique_ptr<NearPairs> near_pairs_;
 };
+
+template <typename Other>
+requires(!kIsRigidShape<Other>) BodyId World::add(const Other& /*other*/, const Pose& /*pose*/,
+                                                  const BodyOptions& /*options*/) {
+    static_assert(
+        kIsRigidShape<Other>,
+        "World::add takes a Model, Convex, Sphere, Capsule, Box3, Cylinder, Cone, Ellipsoid or "
+        "HalfSpace with a pose, or a Deformable without one. A Mesh goes into one of these first.");
+    return {};
+}
 
 } // namespace abut

@@ -217,13 +217,18 @@ double DeformableData::looseness() const {
 }
 
 Deformable::Deformable(Mesh mesh, const DeformableOptions& options)
-    : data_(std::make_unique<DeformableData>()) {
+    : data_(std::make_shared<DeformableData>()) {
     data_->options = options;
     set_mesh(std::move(mesh));
 }
 Deformable::~Deformable() = default;
 Deformable::Deformable(Deformable&&) noexcept = default;
 Deformable& Deformable::operator=(Deformable&&) noexcept = default;
+Deformable::Deformable(std::shared_ptr<DeformableData> data) : data_(std::move(data)) {}
+
+std::shared_ptr<const Deformable> shared(const Deformable& surface) {
+    return std::shared_ptr<const Deformable>(new Deformable(surface.data_));
+}
 
 void Deformable::set_mesh(Mesh mesh) {
     require_valid(mesh);

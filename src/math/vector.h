@@ -10,12 +10,6 @@ namespace abut {
 
 using Triangle = std::array<Vec3, 3>;
 
-using vectors::cross, vectors::dot, vectors::length;
-using vectors::operator+, vectors::operator-, vectors::operator*;
-
-inline Vec3 operator-(const Vec3& a) {
-    return {-a.x, -a.y, -a.z};
-}
 inline double length_sq(const Vec3& a) {
     return dot(a, a);
 }

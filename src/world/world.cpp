@@ -35,6 +35,20 @@ auto naming(BodyId id, const Work& work) {
     }
 }
 
+/// Whether a body would be at two places that differ by no more than rounding.
+bool is_same_place(const Body& body, const Pose& pose) {
+    constexpr double kRounding = 0x1p-40;
+    const Transform& here = body.world_from_body;
+    const Transform there = pose;
+    const double size = length(body.own_bounds.upper - body.own_bounds.lower);
+    const double far = std::max({std::abs(here.m[9]), std::abs(here.m[10]), std::abs(here.m[11]),
+                                 std::isfinite(size) ? size : 0});
+    for (std::size_t i = 0; i < here.m.size(); ++i)
+        if (!(std::abs(here.m[i] - there.m[i]) <= kRounding * (i < 9 ? 1 : far)))
+            return false;
+    return true;
+}
+
 void require_rigid(const Body& body) {
     require(!is_deformable(body.shape), "is deformable: it moves as its own step says");
 }
@@ -138,7 +152,7 @@ BodyId World::add(const HalfSpace& half_space, const Pose& pose, const BodyOptio
         *data_, [&] { return shape_of(half_space); }, pose, options);
 }
 BodyId World::add(const Deformable& surface, const BodyOptions& options) {
-    return data_->add(shape_of(surface), {}, options);
+    return data_->add(shape_of(shared(surface)), {}, options);
 }
 
 void World::move(BodyId body, const Pose& pose) {
@@ -275,6 +289,8 @@ std::vector<BodyImpact> World::time_of_impact(const std::vector<BodyMotion>& mot
             require_rigid(bodies[each.body.index]);
             require(named[each.body.index] == 0, "moves twice in one step");
             static_cast<void>(at(each.motion, 1)); // throws if the motion is not valid
+            require(is_same_place(bodies[each.body.index], each.motion.start),
+                    "its motion does not start where the body is");
         });
         motion_of[each.body.index] = each.motion;
         named[each.body.index] = 1;

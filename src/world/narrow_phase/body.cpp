@@ -118,7 +118,7 @@ Box3 bounds_of_deformable(const Deformable& surface) {
 } // namespace
 
 const Model& Snapshot::model() const {
-    std::call_once(once_, [&] { model_.emplace(surface_.model()); });
+    std::call_once(once_, [&] { model_.emplace(surface_->model()); });
     return *model_;
 }
 
@@ -193,8 +193,9 @@ BodyShape shape_of(const HalfSpace& half_space) {
     return PlaneShape{offset * normal, normal};
 }
 
-BodyShape shape_of(const Deformable& surface) {
-    return DeformableShape{&surface, std::make_shared<const Snapshot>(surface)};
+BodyShape shape_of(std::shared_ptr<const Deformable> surface) {
+    auto snapshot = std::make_shared<const Snapshot>(surface);
+    return DeformableShape{std::move(surface), std::move(snapshot)};
 }
 
 RoundedBox placed(const RoundedBox& box, const Transform& world_from_body) {

@@ -14,6 +14,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
 #include <variant>
 
 namespace abut {
@@ -21,18 +22,18 @@ namespace abut {
 /// A deformable surface as it was at the start of its step when it was first used after a refresh.
 class Snapshot {
 public:
-    explicit Snapshot(const Deformable& surface) : surface_(surface) {}
+    explicit Snapshot(std::shared_ptr<const Deformable> surface) : surface_(std::move(surface)) {}
     [[nodiscard]] const Model& model() const;
 
 private:
-    const Deformable& surface_;
+    std::shared_ptr<const Deformable> surface_;
     mutable std::once_flag once_;
     mutable std::optional<Model> model_;
 };
 
 /// A deformable surface. Each of its steps gets a new snapshot.
 struct DeformableShape {
-    const Deformable* surface;
+    std::shared_ptr<const Deformable> surface;
     std::shared_ptr<const Snapshot> snapshot;
 };
 
@@ -74,7 +75,7 @@ BodyShape shape_of(const Cylinder& cylinder);
 BodyShape shape_of(const Cone& cone);
 BodyShape shape_of(const Ellipsoid& ellipsoid);
 BodyShape shape_of(const HalfSpace& half_space);
-BodyShape shape_of(const Deformable& surface);
+BodyShape shape_of(std::shared_ptr<const Deformable> surface);
 
 /// The shape under a rotation and translation, in the world.
 RoundedBox placed(const RoundedBox& box, const Transform& world_from_body);

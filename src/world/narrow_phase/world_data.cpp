@@ -5,6 +5,7 @@
 #include "world/narrow_phase/contact_rounding.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <string>
 #include <utility>
@@ -20,28 +21,39 @@ bool has_same_bits(const Transform& a, const Transform& b) {
     });
 }
 
+std::uint32_t next_world_number() {
+    static std::atomic<std::uint32_t> last = 0;
+    std::uint32_t number = ++last;
+    while (number == 0) // after 2^32 worlds
+        number = ++last;
+    return number;
+}
+
 } // namespace
 
 WorldData::WorldData(WorldOptions options)
-    : options_(std::move(options)),
+    : options_(std::move(options)), number_(next_world_number()),
       broad_phase_({options_.broad_phase,
                     [this](std::uint32_t i, std::uint32_t k) { return may_meet(i, k); }}) {}
 
 BodyId WorldData::next_id() const {
     if (free_.empty())
-        return {static_cast<std::uint32_t>(bodies_.size()), 0};
-    return {free_.back(), bodies_[free_.back()].generation + 1};
+        return {static_cast<std::uint32_t>(bodies_.size()), 0, number_};
+    return {free_.back(), bodies_[free_.back()].generation + 1, number_};
 }
 
 bool WorldData::is_valid(BodyId id) const {
-    return id.index < bodies_.size() && bodies_[id.index].alive &&
-           bodies_[id.index].generation == id.generation;
+    return (id.world == number_ || id.world == 0) && id.index < bodies_.size() &&
+           bodies_[id.index].alive && bodies_[id.index].generation == id.generation;
 }
 
 const Body& WorldData::body(BodyId id) const {
-    if (!is_valid(id))
+    if (!is_valid(id)) {
+        const bool is_other = id.world != 0 && id.world != number_;
         throw Error(ErrorCode::bad_argument,
-                    "body " + std::to_string(id.index) + ": there is no such body");
+                    "body " + std::to_string(id.index) +
+                        (is_other ? ": is a body of another world" : ": there is no such body"));
+    }
     return bodies_[id.index];
 }
 Body& WorldData::changeable(BodyId id) {
@@ -98,7 +110,7 @@ void WorldData::refresh(BodyId id) {
     auto* deformable = std::get_if<DeformableShape>(&moved.shape);
     if (deformable == nullptr)
         return;
-    moved.shape = shape_of(*deformable->surface);
+    moved.shape = shape_of(deformable->surface);
     moved.own_bounds = bounds_of(moved.shape);
     ++moved.shape_version;
     fit_box(id.index);

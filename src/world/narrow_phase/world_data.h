@@ -64,7 +64,7 @@ public:
         return {bodies_[index].shape, bodies_[index].world_from_body};
     }
     [[nodiscard]] BodyId id_of(std::uint32_t index) const {
-        return {index, bodies_[index].generation};
+        return {index, bodies_[index].generation, number_};
     }
     /// Numbers both bodies as they are placed now.
     [[nodiscard]] PlacementPair placements_of(IndexPair pair) const {
@@ -84,6 +84,7 @@ private:
     void fit_box(std::uint32_t index);
 
     WorldOptions options_;
+    const std::uint32_t number_; ///< among the worlds of the process, from 1
     std::vector<Body> bodies_;
     std::vector<Box3> boxes_; ///< empty where there is no body
     std::vector<std::uint32_t> free_;

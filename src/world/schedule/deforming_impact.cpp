@@ -249,7 +249,7 @@ private:
 
 const Deformable* deformable_of(const MovingBody& body) {
     const auto* shape = std::get_if<DeformableShape>(&body.shape);
-    return shape != nullptr ? shape->surface : nullptr;
+    return shape != nullptr ? shape->surface.get() : nullptr;
 }
 
 Impact turned_round(Impact impact) {

@@ -12,15 +12,6 @@ namespace {
 
 using Triangle = std::array<Vec3, 3>;
 
-Vec3 operator-(const Vec3& a, const Vec3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-Vec3 operator+(const Vec3& a, const Vec3& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-Vec3 operator*(const Vec3& a, double s) {
-    return {a.x * s, a.y * s, a.z * s};
-}
 double dot(const Vec3& a, const Vec3& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }

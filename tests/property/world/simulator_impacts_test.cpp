@@ -11,7 +11,6 @@
 namespace abut::test {
 namespace {
 
-using namespace vectors;
 using simulation::Body;
 using simulation::Simulator;
 

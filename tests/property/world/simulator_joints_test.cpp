@@ -8,7 +8,6 @@
 namespace abut::test {
 namespace {
 
-using namespace vectors;
 using simulation::Body;
 using simulation::JointKind;
 using simulation::Simulator;
