@@ -54,7 +54,7 @@ Transform at(const Motion& motion, double t);
 
 struct ImpactOptions {
     /// Length. At the returned time the models are at most this far apart. Default: a millionth of
-    /// the diagonal of the larger model's bounding box. It sets how close to the first contact the
+    /// the diagonal of the smaller model's bounding box. It sets how close to the first contact the
     /// time is, not whether there is a contact. Where rounding of the coordinates leaves a larger
     /// gap, the status is `converged`.
     std::optional<double> absolute_error{};

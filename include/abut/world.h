@@ -241,7 +241,8 @@ public:
     /// Finds when bodies that move in this step first meet. Each pair is listed once; the list is
     /// sorted. Deformables move as their steps define, with the same t from 0 to 1 as the motions.
     /// Other bodies stay at rest, and two at rest are not tested. A pair that shares a point at
-    /// t = 0 has time 0 and a zero normal; both points are one point of both bodies, to rounding.
+    /// t = 0 has time 0 and a zero normal; both points are one point of both bodies, to rounding. Two
+    /// convex bodies that only touch there, and part or slide in the whole step, do not meet.
     ///
     /// Accuracy    as `time_of_impact`: no time is later than the first contact, and no contact is
     ///             missed. A deformable meets a cylinder, cone or ellipsoid when it meets a

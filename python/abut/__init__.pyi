@@ -5210,7 +5210,7 @@ def time_of_impact(robot: Robot, start: ArrayLike, end: ArrayLike, *, self_pairs
     a, b                two Model
     motion_a, motion_b  a Motion, a pose (no motion), or a list of Motion; one is used with all of the other's
     absolute_error      length: how far apart the models may be at the time returned; None: a millionth of
-                        the larger model's diagonal
+                        the smaller model's diagonal
     max_steps           limit of the search
     progress            function of (stage, fraction)
 

@@ -37,14 +37,14 @@ auto naming(BodyId id, const Work& work) {
 
 /// Whether a body would be at two places that differ by no more than rounding.
 bool is_same_place(const Body& body, const Pose& pose) {
-    constexpr double kRounding = 0x1p-40;
+    constexpr double kSamePlace = 0x1p-40;
     const Transform& here = body.world_from_body;
     const Transform there = pose;
     const double size = length(body.own_bounds.upper - body.own_bounds.lower);
     const double far = std::max({std::abs(here.m[9]), std::abs(here.m[10]), std::abs(here.m[11]),
                                  std::isfinite(size) ? size : 0});
     for (std::size_t i = 0; i < here.m.size(); ++i)
-        if (!(std::abs(here.m[i] - there.m[i]) <= kRounding * (i < 9 ? 1 : far)))
+        if (!(std::abs(here.m[i] - there.m[i]) <= kSamePlace * (i < 9 ? 1 : far)))
             return false;
     return true;
 }

@@ -176,7 +176,7 @@ void bind_motion(py::module_& module) {
         "all of the other's\n"
         "absolute_error      length: how far apart the models may be at the time returned; None: a "
         "millionth of\n"
-        "                    the larger model's diagonal\n"
+        "                    the smaller model's diagonal\n"
         "max_steps           limit of the search\n"
         "progress            function of (stage, fraction)\n\n"
         "Returns Impact; with lists of motions a record array of shape (n,), computed in parallel. "

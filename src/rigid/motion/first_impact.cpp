@@ -111,7 +111,7 @@ public:
         : a_(a), b_(b), pair_(pair), tree_a_(pair.a.tree), tree_b_(pair.b.tree),
           end_(std::min(kEnd, until)),
           asked_tolerance_(options.absolute_error.value_or(
-              kImpactTolerance * std::max(a.data().diagonal(), b.data().diagonal()))),
+              kImpactTolerance * std::min(a.data().diagonal(), b.data().diagonal()))),
           tolerance_(std::max(asked_tolerance_, kUndecided * pair.margin)), steps_(options),
           window_(std::max(kLeastWindow, kMostTurn / (pair.a.trajectory.speed_of_rotation() +
                                                       pair.b.trajectory.speed_of_rotation()))),

@@ -9,7 +9,7 @@
 /// infinite if the sets never meet.
 namespace abut {
 
-/// The default of ImpactOptions::absolute_error, as a share of the larger model's diagonal.
+/// The default of ImpactOptions::absolute_error, as a share of the smaller model's diagonal.
 inline constexpr double kImpactTolerance = 1e-6;
 
 /// Bounds with a horizon are used only for a turn of at most kHorizonTurn radians within it. Speeds

@@ -23,6 +23,13 @@ double reach_of(const MovingBody& body) {
     return reach_from(body.shape, body.own_bounds, apply(inverse(start), body.motion.centre));
 }
 
+/// The same for points of the body's core, if it is one that a ball moves along: turning about a point of
+/// the core moves no surface by more than it moves the core.
+double core_reach_of(const MovingBody& body) {
+    const auto* box = std::get_if<RoundedBox>(&body.shape);
+    return box != nullptr ? std::max(0.0, reach_of(body) - box->radius) : reach_of(body);
+}
+
 /// Rounding error of a distance or a time, relative to the quantities it was computed from. Searches
 /// with curved shapes end with a larger one.
 constexpr double kRounding = 0x1p-44;
@@ -46,8 +53,8 @@ class Advancement {
 public:
     Advancement(const MovingBody& a, const MovingBody& b, const ImpactOptions& options)
         : a_(a), b_(b), options_(options), reach_a_(reach_of(a)), reach_b_(reach_of(b)),
-          plane_a_(is_half_space(a.shape)), plane_b_(is_half_space(b.shape)),
-          is_any_curved_(is_curved(a) || is_curved(b)),
+          swing_a_(core_reach_of(a)), swing_b_(core_reach_of(b)), plane_a_(is_half_space(a.shape)),
+          plane_b_(is_half_space(b.shape)), is_any_curved_(is_curved(a) || is_curved(b)),
           turning_plane_((plane_a_ && turns(a)) || (plane_b_ && turns(b))),
           along_normal_(!turning_plane_ &&
                         (plane_a_ || plane_b_ || (is_convex(a.shape) && is_convex(b.shape)))) {
@@ -59,7 +66,7 @@ public:
         const double own = plane_a_ && plane_b_ ? size
                            : plane_a_           ? reach_b_
                            : plane_b_           ? reach_a_
-                                                : size;
+                                                : std::min(reach_a_, reach_b_);
         asked_tolerance_ = options.absolute_error.value_or(kImpactTolerance * own);
         error_ = (is_any_curved_ ? kCurvedRounding : kRounding) * scale_;
         tolerance_ = std::max(asked_tolerance_, 4 * error_);
@@ -88,9 +95,9 @@ private:
         const double other = plane_a_ && plane_b_ ? 0 : plane_a_ ? reach_b_ : reach_a_;
         const double lever = farthest_centres(a_.motion, b_.motion) + other;
         if (plane_a_)
-            reach_a_ = lever;
+            reach_a_ = swing_a_ = lever;
         if (plane_b_)
-            reach_b_ = lever;
+            reach_b_ = swing_b_ = lever;
         double size = lever;
         for (const MovingBody* body : {&a_, &b_})
             if (const auto* plane = std::get_if<PlaneShape>(&body->shape))
@@ -101,6 +108,8 @@ private:
     [[nodiscard]] Impact search(ImpactSteps& steps, std::uint64_t most_steps) const {
         double time = 0, tolerance = tolerance_;
         BodyGap gap = gap_at(0);
+        if (gap.distance <= 0 && parts_or_slides())
+            return miss();
         while (steps.count() < most_steps) {
             if (!steps.take(time))
                 return out_of_steps(time);
@@ -137,26 +146,35 @@ private:
         return hit(time, gap, contact_after(time, gap));
     }
 
-    [[nodiscard]] BodyGap gap_at(double time) const {
+    [[nodiscard]] BodyGap gap_at(double time, Depths depths = Depths::no) const {
         const Transform world_a = at(a_.motion, time), world_b = at(b_.motion, time);
         PairWarmStart warm_start;
-        return gap_between({a_.shape, world_a}, {b_.shape, world_b}, HUGE_VAL, Depths::no,
-                           warm_start);
+        return gap_between({a_.shape, world_a}, {b_.shape, world_b}, HUGE_VAL, depths, warm_start);
+    }
+
+    /// Returns whether two convex bodies that meet at the start only touch there, and nothing but rounding
+    /// brings them nearer along the normal during the motion.
+    [[nodiscard]] bool parts_or_slides() const {
+        if (!along_normal_)
+            return false;
+        const BodyGap touching = gap_at(0, Depths::yes);
+        return -touching.distance <= 4 * error_ && touching.normal != Vec3{} &&
+               closing_speed(touching) <= 2 * kRounding * scale_;
     }
 
     /// Upper bound of the speed at which points of the two bodies approach each other.
     [[nodiscard]] double fastest_approach() const {
         return length(a_.motion.velocity - b_.motion.velocity) +
-               reach_a_ * length(a_.motion.angular_velocity) +
-               reach_b_ * length(b_.motion.angular_velocity) + kRounding * scale_;
+               swing_a_ * length(a_.motion.angular_velocity) +
+               swing_b_ * length(b_.motion.angular_velocity) + kRounding * scale_;
     }
     /// The same for points on planes across the normal of the gap.
     [[nodiscard]] double closing_speed(const BodyGap& gap) const {
         if (!along_normal_)
             return fastest_approach();
         return dot(a_.motion.velocity - b_.motion.velocity, gap.normal) +
-               reach_a_ * length(cross(a_.motion.angular_velocity, gap.normal)) +
-               reach_b_ * length(cross(b_.motion.angular_velocity, gap.normal)) +
+               swing_a_ * length(cross(a_.motion.angular_velocity, gap.normal)) +
+               swing_b_ * length(cross(b_.motion.angular_velocity, gap.normal)) +
                kRounding * scale_;
     }
     /// The distance of the planes across the normal of the gap that touch the bodies. It is less
@@ -224,6 +242,7 @@ private:
     const MovingBody &a_, &b_;
     const ImpactOptions& options_;
     double reach_a_, reach_b_;
+    double swing_a_, swing_b_; ///< by how much turning may move the body's surface
     bool plane_a_, plane_b_, is_any_curved_, turning_plane_;
     bool along_normal_; ///< whether planes across the normal of a gap separate the bodies
     double scale_ = 0;  ///< magnitude of the coordinates
@@ -252,7 +271,7 @@ Box3 swept_bounds(const MovingBody& body) {
     }
     if (is_deformable(body.shape)) // its box encloses the step except for rounding
         return grown(box, kRounding * (max_abs(box.lower) + max_abs(box.upper)));
-    const double reach = reach_of(body);
+    const double reach = core_reach_of(body);
     // A point moves by at most the arc of its rotation, and by at most the diameter of its sphere.
     const double turned = std::min(length(body.motion.angular_velocity), 2.0) * reach;
     const double by = turned + kRounding * (max_abs(box.lower) + max_abs(box.upper) + turned +

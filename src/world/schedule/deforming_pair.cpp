@@ -62,7 +62,7 @@ DeformingPair::DeformingPair(const DeformableData& deformable, const MovingBody&
     for (const MovingVertex& vertex : deformable.vertices)
         extend(step, vertex.start), extend(step, vertex.end);
     const Box3 start = bounds_of(body.shape, body.own_bounds, turning_.start());
-    size_ = std::max(half_diagonal(step), half_diagonal(start));
+    size_ = std::min(half_diagonal(step), half_diagonal(start));
     double scale = max_abs(velocity_) + max_abs(body.motion.centre);
     for (const Box3& box : {step, start})
         scale += max_abs(box.lower) + max_abs(box.upper);

@@ -58,7 +58,7 @@ public:
     [[nodiscard]] std::uint32_t number_b(std::uint32_t slot) const;
     /// Rounding error of lengths: shorter ones are not certain.
     [[nodiscard]] double margin() const { return margin_; }
-    /// Half the diagonal, approximately, of the larger of the two.
+    /// Half the diagonal, approximately, of the smaller of the two.
     [[nodiscard]] double size() const { return size_; }
 
 private:

@@ -24,9 +24,8 @@ double prescribed_free_time(const Body& a, const Body& b, const RelativeMotion& 
     // Velocities are rounded, by less than 2^-11 of motion.speed. What that adds to the way within
     // the window stays far below the tolerance of an impact.
     constexpr double kMostRounding = 0x1p-14;
-    // A half-space has no reach; its plane moves by the same velocity.
-    const double reach = std::max(motion.a.reach, motion.b.reach),
-                 size = reach < kNoCollision ? reach : std::min(motion.a.reach, motion.b.reach);
+    // The tolerance follows the smaller body. A half-space, which has no reach, is never that.
+    const double size = std::min(motion.a.reach, motion.b.reach);
     const double window =
         std::min({most, turn > 0 ? kMostTurn / turn : kNoCollision,
                   motion.speed > 0 ? kMostRounding * size / motion.speed : kNoCollision});

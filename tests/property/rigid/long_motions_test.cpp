@@ -350,7 +350,7 @@ TEST(LongMotions, AGapAboveTheToleranceIsNotExact) {
         if (!impact.meet)
             continue;
         ++of_status.at(static_cast<std::size_t>(impact.status));
-        const double allowed = tolerance.value_or(1e-6 * std::max(diagonal(a), diagonal(b)));
+        const double allowed = tolerance.value_or(1e-6 * std::min(diagonal(a), diagonal(b)));
         if (impact.status == Status::exact) {
             ASSERT_LE(impact.gap, allowed) << "case " << i;
         }

@@ -244,10 +244,11 @@ TEST(Stops, AStoppedScheduleForgetsNoPair) {
         for (int i = 0; i < 60; ++i) {
             const Pose pose{random.in_cube(3), {1, 0, 0, 0}};
             bodies.push_back(world.add(Sphere{{}, 0.3}, pose));
-            EXPECT_EQ(twin.add(Sphere{{}, 0.3}, pose), bodies.back());
+            const BodyId same = twin.add(Sphere{{}, 0.3}, pose);
+            EXPECT_EQ(same, bodies.back());
             const SpeedBounds bounds{random.in_cube(1), {}, 0, 0};
             world.set_speed(bodies.back(), bounds);
-            twin.set_speed(bodies.back(), bounds);
+            twin.set_speed(same, bounds);
         }
         return bodies;
     };
