@@ -50,9 +50,6 @@ struct WalkCase {
 Vec3 plus(const Vec3& a, double s, const Vec3& b) {
     return {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
 }
-double dot(const Vec3& a, const Vec3& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
 
 /// Crowded places of the plant, each next to a part with others around it. Each lies within 20 m of
 /// the previous one, or anywhere.

@@ -7,11 +7,13 @@
 #include "world/narrow_phase/narrow_phase.h"
 #include "world/narrow_phase/solid_gap.h"
 #include "world/schedule/deforming_impact.h"
+#include "world/schedule/model_impact.h"
 #include "world/schedule/shared_point.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace abut {
 
@@ -108,7 +110,7 @@ private:
     [[nodiscard]] Impact search(ImpactSteps& steps, std::uint64_t most_steps) const {
         double time = 0, tolerance = tolerance_;
         BodyGap gap = gap_at(0);
-        if (gap.distance <= 0 && parts_or_slides())
+        if (gap.distance <= 4 * error_ && parts_or_slides())
             return miss();
         while (steps.count() < most_steps) {
             if (!steps.take(time))
@@ -152,8 +154,8 @@ private:
         return gap_between({a_.shape, world_a}, {b_.shape, world_b}, HUGE_VAL, depths, warm_start);
     }
 
-    /// Returns whether two convex bodies that meet at the start only touch there, and nothing but rounding
-    /// brings them nearer along the normal during the motion.
+    /// Returns whether two convex bodies that meet at the start, to rounding, only touch there, and
+    /// nothing but rounding brings them nearer along the normal during the motion.
     [[nodiscard]] bool parts_or_slides() const {
         if (!along_normal_)
             return false;
@@ -254,6 +256,22 @@ const Model& model_of(const BodyShape& shape) {
     return std::get<Model>(shape);
 }
 
+/// Whether a body's surface is known as triangles with a radius around them.
+bool has_core(const MovingBody& body) {
+    return std::holds_alternative<RoundedBox>(body.shape) ||
+           std::holds_alternative<ConvexShape>(body.shape);
+}
+
+bool is_model(const MovingBody& body) {
+    return std::holds_alternative<Model>(body.shape);
+}
+
+bool touch_at_start(const MovingBody& a, const MovingBody& b) {
+    const Transform world_a = at(a.motion, 0), world_b = at(b.motion, 0);
+    PairWarmStart warm_start;
+    return touch({a.shape, world_a}, {b.shape, world_b}, warm_start);
+}
+
 } // namespace
 
 Box3 swept_bounds(const MovingBody& body) {
@@ -280,11 +298,24 @@ Box3 swept_bounds(const MovingBody& body) {
     return {min(box.lower, box.lower + way) - margin, max(box.upper, box.upper + way) + margin};
 }
 
+Impact turned_round(Impact impact) {
+    std::swap(impact.point_a, impact.point_b);
+    std::swap(impact.triangle_a, impact.triangle_b);
+    impact.normal = -impact.normal;
+    return impact;
+}
+
 Impact body_impact(const MovingBody& a, const MovingBody& b, const ImpactOptions& options) {
     if (is_deformable(a.shape) || is_deformable(b.shape))
         return deforming_impact(a, b, options);
-    if (std::holds_alternative<Model>(a.shape) && std::holds_alternative<Model>(b.shape))
+    if (is_model(a) && is_model(b))
         return time_of_impact(model_of(a.shape), a.motion, model_of(b.shape), b.motion, options);
+    if (((is_model(a) && has_core(b)) || (has_core(a) && is_model(b))) && !touch_at_start(a, b)) {
+        const double tolerance =
+            options.absolute_error.value_or(kImpactTolerance * std::min(reach_of(a), reach_of(b)));
+        return is_model(a) ? model_impact(a, b, tolerance, options)
+                           : turned_round(model_impact(b, a, tolerance, options));
+    }
     return Advancement(a, b, options).run();
 }
 

@@ -252,13 +252,6 @@ const Deformable* deformable_of(const MovingBody& body) {
     return shape != nullptr ? shape->surface.get() : nullptr;
 }
 
-Impact turned_round(Impact impact) {
-    std::swap(impact.point_a, impact.point_b);
-    std::swap(impact.triangle_a, impact.triangle_b);
-    impact.normal = -impact.normal;
-    return impact;
-}
-
 /// The impact of bodies that already share a point at the start; none if they do not.
 std::optional<Impact> impact_at_start(const MovingBody& a, const MovingBody& b) {
     const Transform world_from_a = a.motion.start, world_from_b = b.motion.start;

@@ -32,6 +32,13 @@ std::vector<Kind> walls() {
                  return w.add(HalfSpace{{0, 0, 1}, 0}, p);
              }}};
 }
+/// The same wall, of many triangles.
+Kind wall_of_triangles() {
+    const Mesh mesh = grid_mesh(40, 40, false, false, [](double u, double v) {
+        return Vec3{100 * u - 50, 100 * v - 50, 0};
+    });
+    return {"model", [=](World& w, const Pose& p) { return w.add(Model(mesh), p); }};
+}
 /// Bodies whose lowest point is 0.1 below the origin of their frame.
 std::vector<Kind> bodies() {
     const Vec3 half{0.1, 0.1, 0.1};
@@ -101,8 +108,33 @@ TEST(PartingBodies, AreFreeWhileTheyPartOrSlide) {
                 }
 }
 
+TEST(PartingBodies, SlideAboveTheTrianglesOfAModel) {
+    for (const Kind& kind : bodies())
+        for (const double gap : {1e-9, 9.7e-6})
+            for (const double angle : {0.0, kQuarter, 0.3}) {
+                SCOPED_TRACE(kind.name + " gap " + std::to_string(gap) + " angle " +
+                             std::to_string(angle));
+                Scene scene(wall_of_triangles(), kind, gap, angle);
+                scene.motion.velocity = 1.5 * scene.along;
+                EXPECT_TRUE(scene.impacts().empty());
+                scene.motion.velocity = 1.5 * scene.up;
+                EXPECT_TRUE(scene.impacts().empty());
+                scene.motion.angular_velocity = (1.0 / 60) * scene.along;
+                EXPECT_TRUE(scene.impacts().empty());
+                scene.motion.angular_velocity = {};
+                scene.motion.velocity = -1.5 * scene.up;
+                const std::vector<BodyImpact> impacts = scene.impacts();
+                ASSERT_EQ(impacts.size(), 1U);
+                EXPECT_LE(impacts[0].impact.time, gap / 1.5);
+                EXPECT_EQ(impacts[0].impact.status, Status::exact);
+                EXPECT_NEAR(dot(impacts[0].impact.normal, scene.up), 1, 1e-6);
+            }
+}
+
 TEST(PartingBodies, ASpinningBallSlides) {
-    for (const Kind& wall : walls())
+    std::vector<Kind> all = walls();
+    all.push_back(wall_of_triangles());
+    for (const Kind& wall : all)
         for (const double gap : {1e-9, 9.7e-6}) {
             Scene scene(wall, bodies()[0], gap, 0.3);
             scene.motion.velocity = 1.5 * scene.along;
