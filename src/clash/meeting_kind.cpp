@@ -157,18 +157,17 @@ bool is_first(const WorldSolid& a, const WorldSolid& b) {
         places(a), places(b), [](const Vec3& p, const Vec3& q) { return is_before(p, q); });
 }
 
-/// The contacts of faces that bound no solid, of a and of b moved by a vector, and how far these faces go
-/// beyond each other. The point is told where b is not moved.
+/// How far the faces that bound no solid, of a and of b moved by a vector, go beyond each other. The point
+/// is told where b is not moved.
 SheetOverlap overlap_if_moved(const ClashPart& a, const ClashPart& b, const Vec3& by, double touch,
                               const std::function<bool(const Contact&)>& are_sheets) {
     Transform world = b.world_from_mesh;
     world.m[9] += by.x, world.m[10] += by.y, world.m[11] += by.z;
     const ClashPart moved{b.model, b.blocks, world, grown(b.box, length(by)), b.rounding};
     const auto decide = [&](PartPair&& pair) {
-        std::vector<Contact> contacts;
+        SheetContacts contacts;
         pair.for_each_contact([&](const Contact& contact) {
-            if (are_sheets(contact))
-                contacts.push_back(contact);
+            (are_sheets(contact) ? contacts.of_sheets : contacts.of_solids).push_back(contact);
         });
         SheetOverlap overlap =
             overlap_of_sheets(pair.a().solid(), pair.b().solid(), contacts,

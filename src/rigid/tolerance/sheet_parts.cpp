@@ -48,7 +48,8 @@ SheetParts::SheetParts(const Sheet& own, const OtherSheet& other,
     for (const SheetCrossing& c : crossings)
         faces_[c.own].lines.push_back(c.line);
     for (std::uint32_t i = 0; i < crossings.size(); ++i)
-        curves_[crossings[i].curve].crossings.push_back(i);
+        if (crossings[i].curve != SheetCrossing::kNoCurve)
+            curves_[crossings[i].curve].crossings.push_back(i);
 }
 
 /// Cuts a face along its lines, unless that is done.

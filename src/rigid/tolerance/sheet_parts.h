@@ -19,7 +19,9 @@ namespace abut {
 struct SheetCrossing {
     std::uint32_t own = 0, other = 0; ///< triangles
     DirectedPiece line;
-    std::uint32_t curve = 0; ///< of which the line is a part
+    /// Of which the line is a part; kNoCurve if it only limits the sheets.
+    std::uint32_t curve = kNoCurve;
+    static constexpr std::uint32_t kNoCurve = 0xffffffff;
 };
 
 /// A point of a sheet, and its distance from another one.

@@ -39,9 +39,9 @@ constexpr double kAccuracyAtCorner = 0x1p-30;
 /// Two surfaces with the lines in which they cross.
 class SheetPair {
 public:
-    SheetPair(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts,
+    SheetPair(const WorldSolid& a, const WorldSolid& b, const SheetContacts& contacts,
               const SheetSearch& search)
-        : origin_(a.world_triangle(contacts[0].pair.a)[0]),
+        : origin_(a.world_triangle(contacts.of_sheets[0].pair.a)[0]),
           near_(std::max(kNear * length(sheet_shift(a, b)), kNearByRounding * search.rounding)),
           sheets_{Sheet(a, origin_, near_), Sheet(b, origin_, near_)},
           surfaces_{a.seen_from(origin_), b.seen_from(origin_)},
@@ -52,17 +52,9 @@ public:
         options_ = {.rounding = depth_rounding(a, b) + length(sheet_shift(a, b)),
                     .both_sides = true,
                     .budget = kBudget};
-        for (const Contact& contact : contacts) {
-            const Triangle s = a.world_triangle(contact.pair.a),
-                           t = b.world_triangle(contact.pair.b);
-            const Intersection common = triangle_triangle_segment(s, t);
-            if (common.count != 2 || projection_axis(s) < 0 || projection_axis(t) < 0)
-                continue;
-            const LinePiece line{common.corners[0] - origin_, common.corners[1] - origin_};
-            crossings_[0].push_back(
-                {contact.pair.a, contact.pair.b, directed(line, contact.pair), 0});
-        }
+        add_crossings(a, b, contacts.of_sheets);
         find_curves();
+        add_crossings(a, b, contacts.of_solids);
         for (const SheetCrossing& c : crossings_[0])
             crossings_[1].push_back({c.other, c.own, c.line, c.curve});
         for (std::size_t side = 0; side < 2; ++side)
@@ -97,6 +89,20 @@ private:
         const bool is_short = length(line.q - line.p) < kLong * near_;
         return {line, normalized_or_zero(is_short && length(of_planes) > kSteep ? of_planes
                                                                                 : line.q - line.p)};
+    }
+
+    /// Adds the lines of contacts, on no curve.
+    void add_crossings(const WorldSolid& a, const WorldSolid& b,
+                       std::span<const Contact> contacts) {
+        for (const Contact& contact : contacts) {
+            const Triangle s = a.world_triangle(contact.pair.a),
+                           t = b.world_triangle(contact.pair.b);
+            const Intersection common = triangle_triangle_segment(s, t);
+            if (common.count != 2 || projection_axis(s) < 0 || projection_axis(t) < 0)
+                continue;
+            const LinePiece line{common.corners[0] - origin_, common.corners[1] - origin_};
+            crossings_[0].push_back({contact.pair.a, contact.pair.b, directed(line, contact.pair)});
+        }
     }
 
     /// Lines are on one curve where their ends meet. Curves that may be there only because of the shift
@@ -223,8 +229,9 @@ private:
 } // namespace
 
 SheetOverlap overlap_of_sheets(const WorldSolid& a, const WorldSolid& b,
-                               std::span<const Contact> contacts, const SheetSearch& search) {
-    return contacts.empty() ? SheetOverlap{} : SheetPair(a, b, contacts, search).overlap();
+                               const SheetContacts& contacts, const SheetSearch& search) {
+    return contacts.of_sheets.empty() ? SheetOverlap{}
+                                      : SheetPair(a, b, contacts, search).overlap();
 }
 
 Vec3 sheet_shift(const WorldSolid& a, const WorldSolid& b) {

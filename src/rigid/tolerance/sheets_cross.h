@@ -4,7 +4,7 @@
 #include "rigid/solid/world_solid.h"
 #include "rigid/tolerance/reach_search.h"
 
-#include <span>
+#include <vector>
 
 namespace abut {
 
@@ -20,6 +20,13 @@ struct SheetOverlap {
     double depth = 0;            ///< 0 if it is not more than the rounding
     Vec3 point;        ///< of one surface, in the world, that is so far from the other one
     bool of_b = false; ///< whether the point is on b
+};
+
+/// The contacts of two surfaces. A surface ends at all of them, but how far it goes is only asked along
+/// those of faces that bound no solids.
+struct SheetContacts {
+    std::vector<Contact> of_sheets,
+        of_solids; ///< the latter: of pairs of which one face bounds a solid
 };
 
 /// What overlap_of_sheets() is asked.
@@ -38,7 +45,7 @@ struct SheetSearch {
 /// Cost        O(n log n) for surfaces of n triangles, and some searches of each part beside a curve: one
 ///             for each length with which the depth is compared, up to 100.
 SheetOverlap overlap_of_sheets(const WorldSolid& a, const WorldSolid& b,
-                               std::span<const Contact> contacts, const SheetSearch& search);
+                               const SheetContacts& contacts, const SheetSearch& search);
 
 /// Returns a vector by which one of two surfaces is moved, so that their vertices and edges are in
 /// general position: 2^-40 of the pair's size, in a fixed direction.
