@@ -141,6 +141,16 @@ std::vector<DirectedPiece> SheetBorder::ends_on(const OtherFace& face) const {
     return ends;
 }
 
+/// The ends of a line at which its edge stops to be nearest.
+std::vector<Vec3> SheetBorder::stops_of(const BorderLine& line) {
+    std::vector<Vec3> ends;
+    if (line.stops[0])
+        ends.push_back(line.line.p);
+    if (line.stops[1])
+        ends.push_back(line.line.q);
+    return ends;
+}
+
 bool SheetBorder::are_neighbours(std::uint32_t i, std::uint32_t j) const {
     const LinePiece &line = sides_[i].line, &other = sides_[j].line;
     for (const Vec3& end : {line.p, line.q})
@@ -156,21 +166,26 @@ void SheetBorder::bridge(Search& search) const {
     const std::size_t count = lines.size();
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t j = i + 1; j < count; ++j) {
-            const auto [side, line] = lines[i];
-            const auto [other_side, other] = lines[j];
-            if (side == other_side || !are_neighbours(side, other_side))
+            const FaceSide &side = sides_[lines[i].side], &other = sides_[lines[j].side];
+            if (lines[i].side == lines[j].side || !are_neighbours(lines[i].side, lines[j].side))
                 continue;
-            LinePiece gap{line.p, other.p};
-            for (const Vec3& p : {line.p, line.q})
-                for (const Vec3& q : {other.p, other.q})
-                    if (length_sq(q - p) < length_sq(gap.q - gap.p))
-                        gap = {p, q};
-            const auto is_between = [&, side = side, other_side = other_side](double share) {
-                return is_nearest(sides_[side], at(gap, share), search) ||
-                       is_nearest(sides_[other_side], at(gap, share), search);
+            const auto are_as_near = [&](const Vec3& point) {
+                return std::abs(distance_to_line(point, side.line) -
+                                distance_to_line(point, other.line)) <= 8 * near_;
             };
-            if (gap.p != gap.q && is_between(0.25) && is_between(0.5) && is_between(0.75))
-                lines.push_back({side, gap});
+            const auto is_between = [&](const LinePiece& gap, double share) {
+                return is_nearest(side, at(gap, share), search) ||
+                       is_nearest(other, at(gap, share), search);
+            };
+            std::optional<LinePiece> nearest;
+            for (const Vec3& p : stops_of(lines[i]))
+                for (const Vec3& q : stops_of(lines[j]))
+                    if (p != q && are_as_near(p) && are_as_near(q) &&
+                        (!nearest || length_sq(q - p) < length_sq(nearest->q - nearest->p)))
+                        nearest = LinePiece{p, q};
+            if (nearest && is_between(*nearest, 0.25) && is_between(*nearest, 0.5) &&
+                is_between(*nearest, 0.75))
+                lines.push_back({lines[i].side, *nearest});
         }
 }
 
@@ -244,7 +259,9 @@ void SheetBorder::add_lines(std::uint32_t number, const LinePiece& chord, const 
         // A little more, so that lines that meet leave no gap.
         const double more = 2 * near_ / std::max(length(chord.q - chord.p), near_);
         search.lines.push_back(
-            {number, {at(chord, std::max(0.0, from - more)), at(chord, std::min(1.0, to + more))}});
+            {number,
+             {at(chord, std::max(0.0, from - more)), at(chord, std::min(1.0, to + more))},
+             {from > 0, to < 1}});
     }
 }
 

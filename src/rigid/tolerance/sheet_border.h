@@ -3,6 +3,7 @@
 #include "rigid/tolerance/box_index.h"
 #include "rigid/tolerance/sheet.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -36,6 +37,8 @@ private:
     struct BorderLine {
         std::uint32_t side = 0;
         LinePiece line;
+        /// Whether the edge stops to be nearest at either end; else the line goes on in another face.
+        std::array<bool, 2> stops{};
     };
     /// A search for the lines on a face.
     struct Search {
@@ -53,6 +56,7 @@ private:
     void add_lines(std::uint32_t number, const LinePiece& chord, const OtherFace& face,
                    Search& search) const;
     void bridge(Search& search) const;
+    [[nodiscard]] static std::vector<Vec3> stops_of(const BorderLine& line);
     [[nodiscard]] bool are_neighbours(std::uint32_t i, std::uint32_t j) const;
 
     const WorldSolid& surface_;

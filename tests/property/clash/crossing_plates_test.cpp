@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace abut::test {
@@ -120,6 +121,68 @@ Crossing upright_fins(Random& random) {
     return c;
 }
 
+/// The part of a convex polygon where dot(normal, x) is at least `from`.
+std::vector<Vec3> clipped(const std::vector<Vec3>& polygon, const Vec3& normal, double from) {
+    std::vector<Vec3> kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Vec3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+        const double at_p = dot(normal, p) - from, at_q = dot(normal, q) - from;
+        if (at_p >= 0)
+            kept.push_back(p);
+        if ((at_p < 0) != (at_q < 0))
+            kept.push_back(p + (at_p / (at_p - at_q)) * (q - p));
+    }
+    return kept;
+}
+
+/// How far one plate goes beyond another one on the side on which it goes less far, up to the planes through
+/// the border of that one; 0 if they cross along less than `least`.
+double beyond(const Plate& plate, const Plate& other, double least) {
+    const Vec3 normal = normalized_or_zero(cross(other.u, other.v));
+    std::vector<Vec3> part{plate.at(0, 0), plate.at(1, 0), plate.at(1, 1), plate.at(0, 1)};
+    for (const auto& [on, side, across] : {std::tuple(other.at(0, 0), other.u, other.v),
+                                           std::tuple(other.at(0, 0), other.v, other.u),
+                                           std::tuple(other.at(1, 1), other.u, -other.v),
+                                           std::tuple(other.at(1, 1), other.v, -other.u)}) {
+        const Vec3 upright = normalized_or_zero(cross(normal, side));
+        const Vec3 inward = dot(upright, across) > 0 ? upright : -upright;
+        part = clipped(part, inward, dot(inward, on));
+    }
+    const double height = dot(normal, other.corner);
+    double over = 0, under = 0, common = 0;
+    for (const Vec3& p : part)
+        over = std::max(over, dot(normal, p) - height),
+        under = std::max(under, height - dot(normal, p));
+    const std::vector<Vec3> line = clipped(clipped(part, normal, height), -normal, -height);
+    for (const Vec3& p : line)
+        common = std::max(common, length(p - line[0]));
+    return common < least ? 0 : std::min(over, under);
+}
+
+/// Two parallelograms, often narrow, that cross anyhow.
+Crossing strips(Random& random) {
+    const auto plate = [&] {
+        const Vec3 u = random.uniform(0.5, 3) * random.direction(), v = random.direction();
+        const Vec3 across = normalized_or_zero(v - (dot(u, v) / dot(u, u)) * u);
+        const double width =
+            random.chance(0.6) ? random.uniform(0.005, 0.05) : random.uniform(0.1, 2);
+        const Vec3 skewed = width * (across + random.uniform(-1, 1) * normalized_or_zero(u));
+        return Plate{{}, u, skewed};
+    };
+    for (;;) {
+        Plate a = plate(), b = plate();
+        if (length(cross(normalized_or_zero(cross(a.u, a.v)),
+                         normalized_or_zero(cross(b.u, b.v)))) < 0.2)
+            continue;
+        // A point of one lies on the other.
+        b.corner = a.at(random.uniform(0.02, 0.98), random.uniform(0.1, 0.9)) -
+                   (b.at(random.uniform(0.02, 0.98), random.uniform(0.1, 0.9)) - b.corner);
+        const double least = 1e-3, depth = std::min(beyond(a, b, least), beyond(b, a, least));
+        if (depth > 1e-3)
+            return {{a}, {b}, depth};
+    }
+}
+
 /// Places where coordinates are rounded by at most 2^-36.
 Transform somewhere(Random& random) {
     switch (random.integer(0, 3)) {
@@ -138,7 +201,9 @@ TEST(CrossingPlates, AreHardOrTouchForAnyTriangles) {
     Random random(20'261'128);
     const int rounds = many(600);
     for (int round = 0; round < rounds; ++round) {
-        const Crossing c = random.chance(0.6) ? tilted_fin(random) : upright_fins(random);
+        const Crossing c = random.chance(0.3)   ? strips(random)
+                           : random.chance(0.6) ? tilted_fin(random)
+                                                : upright_fins(random);
         const Mesh a = divided(random, c.a), b = divided(random, c.b);
         const Transform world = somewhere(random);
         for (const bool swap : {false, true}) {

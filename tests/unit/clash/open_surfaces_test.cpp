@@ -222,6 +222,91 @@ TEST(OpenSurfaces, TheDepthIsOneNumber) {
         }
 }
 
+TEST(OpenSurfaces, EndAtTheSolidsOfTheOtherPart) {
+    // A plate goes 1/32 beyond a fin, and 1/16 more into a box that the fin goes through, ends at, or lies
+    // on. What of the plate is inside the box is no way around the fin.
+    const double reach = 1.0 / 32;
+    for (const double in_box : {1.0 / 16, 0.0})
+        for (const double from : {-1.0, 0.5}) {
+            SCOPED_TRACE(std::to_string(in_box) + ' ' + std::to_string(from));
+            const Mesh plate = grid_mesh(1, 1, false, false, [&](double u, double v) {
+                return Vec3{u * (1 + reach) - 1, 1.5 * v - 0.75, 0};
+            });
+            const Mesh fin = grid_mesh(1, 1, false, false, [&](double u, double v) {
+                return Vec3{0, from + u * (1 - from), 2 * v - 1};
+            });
+            const Mesh both = joined(fin, box_mesh({-in_box, -0.5, -0.5}, {1, 0.5, 0.25}));
+            for (const Transform& world : kPlaces)
+                for (const bool swap : {false, true})
+                    for (const auto& [tolerance, kind] : {std::pair(0.1, touch), {0.015, hard}}) {
+                        const auto clash = classified(swap ? both : plate, swap ? plate : both,
+                                                      tolerance, world, world);
+                        EXPECT_EQ(kind_word(clash), to_string(kind));
+                        EXPECT_NEAR(-clash->distance, reach + in_box, 1e-8);
+                    }
+        }
+}
+
+/// A polygon as a fan around each of its corners.
+std::vector<Mesh> fans(const std::vector<Vec3>& corners) {
+    std::vector<Mesh> fans;
+    const auto n = static_cast<std::uint32_t>(corners.size());
+    for (std::uint32_t first = 0; first < n; ++first) {
+        fans.push_back({corners, {}});
+        for (std::uint32_t i = 1; i + 1 < n; ++i)
+            fans.back().triangles.push_back({first, (first + i) % n, (first + i + 1) % n});
+    }
+    return fans;
+}
+
+TEST(OpenSurfaces, TheBordersOfANarrowStripAreNotJoinedBeyondItsEnd) {
+    // Beyond a strip's end, its corner is as near as both borders that meet there. The planes over these
+    // borders end where the other surface's triangle does; no line leads from one to the other.
+    struct Case {
+        std::vector<Vec3> a, b;
+        double depth; ///< of the planar polygons, by exact arithmetic
+    };
+    const std::vector<Case> cases{
+        {{{1.03125, -0.453125, -0.34375},
+          {0.0625, -0.609375, 1.5},
+          {0.046875, -0.59375, 1.484375},
+          {1.015625, -0.4375, -0.359375}},
+         {{1.8984375, -1.4140625, -0.828125},
+          {1.8984375, -1.4140625, 0.9375},
+          {-0.0703125, 0.5859375, 0.3125},
+          {-0.0703125, 0.5859375, -1.453125}},
+         0.056110941916137996},
+        {{{-0.0048828125, -0.25, 0},
+          {0.5, -0.25, 0},
+          {0.5, 0.2578125, 0},
+          {-0.0048828125, 0.2578125, 0}},
+         {{0.0029296875, -0.23354721069335938, -0.10919189453125},
+          {-0.0078125, 1.132354736328125, 0.5294113159179688},
+          {0.0029296875, 1.132354736328125, 0.5294113159179688}},
+         0.10588325611415383},
+        {{{-1.25, -0.001220703125, 0},
+          {0.25, -0.001220703125, 0},
+          {1.75, -0.000244140625, 0},
+          {1.75, 0.000732421875, 0},
+          {-1.25, 0.000732421875, 0}},
+         {{-0.001953125, 0.0018024444580078125, -0.000751495361328125},
+          {0.0029296875, 0.0018024444580078125, -0.000751495361328125},
+          {0.0029296875, -0.00045013427734375, 0.00018787384033203125},
+          {-0.001953125, -0.00045013427734375, 0.00018787384033203125}},
+         0.00018787384033203125},
+    };
+    for (const auto& [a, b, depth] : cases)
+        for (const Mesh& of_a : fans(a))
+            for (const Mesh& of_b : fans(b))
+                for (const double rounding : {0.0, 1e-7}) {
+                    const auto clash = classified(of_a, of_b, 0.9 * depth, {}, {}, 0, rounding);
+                    EXPECT_EQ(kind_word(clash), "hard") << depth;
+                    EXPECT_NEAR(-clash->distance, depth, 4e-5 * depth) << depth;
+                    EXPECT_EQ(kind_word(classified(of_a, of_b, 1.1 * depth, {}, {}, 0, rounding)),
+                              "touch");
+                }
+}
+
 TEST(OpenSurfaces, ThinFacesAndVerticesOnEdgesAreNoGaps) {
     // The floor has a vertex of one half on the edge of the other one, or a thin face between them.
     const double t = 1e-3;
