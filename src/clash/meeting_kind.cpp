@@ -145,13 +145,13 @@ private:
     Sheets of_a_, of_b_;
 };
 
-/// Returns whether a surface is the first of two, whatever their order: by their first triangles, and by
-/// their boxes if they share one.
+/// Returns whether a surface is the first of two, whatever their order and triangles: by their boxes. By
+/// their first triangles, if these are equal.
 bool is_first(const WorldSolid& a, const WorldSolid& b) {
     const auto places = [](const WorldSolid& surface) {
         const Triangle t = surface.world_triangle(0);
         const Box3 box = surface.world_box();
-        return std::array{t[0], t[1], t[2], box.lower, box.upper};
+        return std::array{box.lower, box.upper, t[0], t[1], t[2]};
     };
     return std::ranges::lexicographical_compare(
         places(a), places(b), [](const Vec3& p, const Vec3& q) { return is_before(p, q); });
