@@ -9,9 +9,9 @@
 /// Vectors, matrices and rotations, as a simulator needs them.
 namespace simulation {
 
+using abut::cross, abut::dot, abut::length;
 using abut::Pose;
 using abut::Vec3;
-using abut::cross, abut::dot, abut::length;
 using Quaternion = std::array<double, 4>; ///< w, x, y, z; of unit length
 
 /// A 3x3 matrix by its columns.
