@@ -39,8 +39,12 @@ BodyOptions body_options(bool is_static, std::uint32_t groups, std::uint32_t mas
     return {.is_static = is_static, .groups = groups, .mask = mask};
 }
 
-py::array pairs_of(std::vector<BodyPair> pairs) {
-    return rows<std::int64_t>(std::move(pairs));
+py::array pairs_of(const std::vector<BodyPair>& pairs) {
+    std::vector<std::array<std::int64_t, 2>> numbers;
+    numbers.reserve(pairs.size());
+    for (const BodyPair& pair : pairs)
+        numbers.push_back({number_of(pair.a), number_of(pair.b)});
+    return rows<std::int64_t>(std::move(numbers));
 }
 
 void bind_world_results(py::module_& module) {

@@ -40,13 +40,42 @@ private:
                      at_q = dot(line.q - nodes_[number].point, nodes_[number].across);
         if (std::max(std::abs(at_p), std::abs(at_q)) <= near_)
             return;
-        if (std::max(at_p, at_q) <= near_)
-            return insert(children, line, along);
-        if (std::min(at_p, at_q) >= -near_)
-            return insert(children + 1, line, along);
+        const bool is_p_higher = at_p > at_q;
+        if (std::max(at_p, at_q) <= near_) {
+            insert(children, line, along);
+            if (std::max(at_p, at_q) >= -near_)
+                close_neck(children + 1, is_p_higher ? line.p : line.q, along);
+            return;
+        }
+        if (std::min(at_p, at_q) >= -near_) {
+            insert(children + 1, line, along);
+            if (std::min(at_p, at_q) <= near_)
+                close_neck(children, is_p_higher ? line.q : line.p, along);
+            return;
+        }
         const Vec3 on = line.p + (at_p / (at_p - at_q)) * (line.q - line.p);
         insert(at_p < 0 ? children : children + 1, {line.p, on}, along);
         insert(at_q < 0 ? children : children + 1, {on, line.q}, along);
+    }
+
+    /// Divides a leaf at the end of a line, which is near the leaf, where the leaf is not wider than that.
+    void close_neck(std::uint32_t number, const Vec3& end, const Vec3& along) {
+        const std::uint32_t children = nodes_[number].children;
+        if (children != 0) {
+            const double at = dot(end - nodes_[number].point, nodes_[number].across);
+            if (at <= near_)
+                close_neck(children, end, along);
+            if (at >= -near_)
+                close_neck(children + 1, end, along);
+            return;
+        }
+        const std::vector<Vec3>& polygon = nodes_[number].polygon;
+        int sides = 0;
+        for (std::size_t i = 0; i < polygon.size(); ++i)
+            sides += distance_to_piece(LinePiece{polygon[i], polygon[(i + 1) % polygon.size()]},
+                                       end) <= 2 * near_;
+        if (sides > 1)
+            divide(number, end, along);
     }
 
     /// Divides a leaf along a line, unless all of it is on one side.

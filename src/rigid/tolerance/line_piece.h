@@ -31,9 +31,15 @@ struct LineSpan {
 std::optional<LineSpan> common_span(const LinePiece& piece, const Vec3& along,
                                     const LinePiece& other, double near, double longer_than);
 
+/// Returns the part of a piece that lies within `near` of another one, if there is any. In: as above.
+std::optional<LineSpan> near_span(const LinePiece& piece, const Vec3& along, const LinePiece& other,
+                                  double near);
+
 /// Returns the parts of a span that no cover comes within `near` of, if they are longer than twice that.
 std::vector<LineSpan> uncovered(const LineSpan& span, std::vector<LineSpan> covers, double near);
 
 Box3 box_of(const LinePiece& piece);
+
+double distance_to_piece(const LinePiece& piece, const Vec3& point);
 
 } // namespace abut

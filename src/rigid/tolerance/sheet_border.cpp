@@ -20,13 +20,6 @@ std::vector<Box3> boxes_of_sides(const std::vector<FaceSide>& sides) {
     return boxes;
 }
 
-double distance_to_line(const Vec3& point, const LinePiece& line) {
-    const Vec3 along = line.q - line.p;
-    const double size = length_sq(along);
-    const double share = size > 0 ? std::clamp(dot(point - line.p, along) / size, 0.0, 1.0) : 0;
-    return length(point - line.p - share * along);
-}
-
 /// Where a plane cuts a triangle; none if it does not, or if they are all but parallel.
 std::optional<LinePiece> chord_of(const Triangle& face, const Vec3& normal, const Vec3& on_plane,
                                   const Vec3& across) {
@@ -85,7 +78,7 @@ std::optional<double> crossing_place(const LinePiece& chord, const DirectedPiece
         return std::nullopt;
     const double share = at_p / (at_p - at_q);
     const Vec3 on = chord.p + share * (chord.q - chord.p);
-    return distance_to_line(on, line.piece) <= near ? std::optional(share) : std::nullopt;
+    return distance_to_piece(line.piece, on) <= near ? std::optional(share) : std::nullopt;
 }
 
 Vec3 at(const LinePiece& line, double share) {
@@ -100,7 +93,7 @@ SheetBorder::SheetBorder(const Sheet& sheet, const WorldSolid& surface, double n
 
 /// Returns a length by which the surface is nearer to a point than a border edge; 0 if it is not nearer.
 double SheetBorder::nearer_by(const FaceSide& side, const Vec3& point, Search& search) const {
-    const double distance = distance_to_line(point, side.line) - near_;
+    const double distance = distance_to_piece(side.line, point) - near_;
     if (distance <= 0)
         return 0;
     const auto found =
@@ -127,7 +120,7 @@ std::vector<DirectedPiece> SheetBorder::ends_on(const OtherFace& face) const {
     Search search{nearest.slot};
     index_.for_each_overlap(grown({middle, middle}, reach), [&](std::uint32_t i) {
         const FaceSide& side = sides_[i];
-        if (distance_to_line(middle, side.line) > reach)
+        if (distance_to_piece(side.line, middle) > reach)
             return;
         const auto chord = chord_of(face.corners, face.normal, side.line.p, side.inward);
         if (chord && !is_nowhere_nearest(side, *chord, search))
@@ -170,8 +163,8 @@ void SheetBorder::bridge(Search& search) const {
             if (lines[i].side == lines[j].side || !are_neighbours(lines[i].side, lines[j].side))
                 continue;
             const auto are_as_near = [&](const Vec3& point) {
-                return std::abs(distance_to_line(point, side.line) -
-                                distance_to_line(point, other.line)) <= 8 * near_;
+                return std::abs(distance_to_piece(side.line, point) -
+                                distance_to_piece(other.line, point)) <= 8 * near_;
             };
             const auto is_between = [&](const LinePiece& gap, double share) {
                 return is_nearest(side, at(gap, share), search) ||
@@ -214,7 +207,7 @@ double SheetBorder::end_of_part(const FaceSide& side, const LinePiece& chord, do
             const double between = 0.5 * (next + out);
             const Vec3 point = at(chord, between);
             const bool is_nearer = std::sqrt(point_triangle_distance(point, nearer).distance_sq) <
-                                   distance_to_line(point, side.line) - near_;
+                                   distance_to_piece(side.line, point) - near_;
             (is_nearer ? out : next) = between;
         }
         is_in = next == in || is_nearest(side, at(chord, next), search);

@@ -106,7 +106,7 @@ std::vector<LineSpan> SheetParts::covers_of(const LinePiece& common, std::uint32
     std::vector<LineSpan> covers;
     const auto add = [&](const LinePiece& line) {
         if (overlap(box, box_of(line)))
-            if (const auto cover = common_span(common, along, line, near, 0))
+            if (const auto cover = near_span(common, along, line, near))
                 covers.push_back({cover->from - near_, cover->to + near_});
     };
     index_.for_each_overlap(box, [&](std::uint32_t i) { add(crossings_[i].line.piece); });
