@@ -1,6 +1,7 @@
 #include <abut/progress.h>
 #include <abut/scene.h>
 #include <abut/store.h>
+#include <abut/vector.h>
 #include <abut/walk.h>
 
 #include "measure.h"
