@@ -110,9 +110,9 @@ class WorldData;
 /// Bodies, the pairs of bodies whose boxes overlap, and exact queries on these pairs.
 ///
 /// A model is a surface; all other shapes are solid, but a deformable surface, which counts as it is
-/// at the start of its step. Models, convex bodies and
-/// deformables share their data with the world. So the caller may move a `Deformable` to another variable;
-/// if it is destroyed or replaced, the body stays as it was.
+/// at the start of its step. Models, convex bodies and deformables share their data with the world. So
+/// the caller may move a `Deformable` to another variable; if it is destroyed or replaced, the body
+/// stays as it was.
 ///
 /// Queries with a progress report the fraction of finished pairs, and end with Error{interrupted}
 /// if its stop flag is set; the world is then as `update` leaves it. Changes of a world, `update`

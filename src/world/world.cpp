@@ -35,8 +35,10 @@ auto naming(BodyId id, const Work& work) {
     }
 }
 
-/// Whether a body would be at two places that differ by no more than rounding.
+/// Returns whether a pose is where a body is, but for rounding.
 bool is_same_place(const Body& body, const Pose& pose) {
+    // A program that multiplies quaternions and adds positions loses some roundings in each step. This
+    // allows for some thousand of them.
     constexpr double kSamePlace = 0x1p-40;
     const Transform& here = body.world_from_body;
     const Transform there = pose;

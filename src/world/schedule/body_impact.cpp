@@ -155,12 +155,14 @@ private:
     }
 
     /// Returns whether two convex bodies that meet at the start, to rounding, only touch there, and
-    /// nothing but rounding brings them nearer along the normal during the motion.
+    /// nothing but rounding brings them nearer along the normal during the motion. The normal of so short
+    /// a gap may be wrong; then the planes across it do not separate the bodies.
     [[nodiscard]] bool parts_or_slides() const {
         if (!along_normal_)
             return false;
         const BodyGap touching = gap_at(0, Depths::yes);
         return -touching.distance <= 4 * error_ && touching.normal != Vec3{} &&
+               gap_along_normal(0, touching) >= -4 * error_ &&
                closing_speed(touching) <= 2 * kRounding * scale_;
     }
 
