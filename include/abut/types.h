@@ -25,13 +25,9 @@ struct Vec3 {
         return {a.x - b.x, a.y - b.y, a.z - b.z};
     }
     friend constexpr Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
-    friend constexpr Vec3 operator*(double s, const Vec3& a) {
-        return {s * a.x, s * a.y, s * a.z};
-    }
+    friend constexpr Vec3 operator*(double s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
     friend constexpr Vec3 operator*(const Vec3& a, double s) { return s * a; }
-    friend constexpr Vec3 operator/(const Vec3& a, double s) {
-        return {a.x / s, a.y / s, a.z / s};
-    }
+    friend constexpr Vec3 operator/(const Vec3& a, double s) { return {a.x / s, a.y / s, a.z / s}; }
     constexpr Vec3& operator+=(const Vec3& a) { return *this = *this + a; }
     constexpr Vec3& operator-=(const Vec3& a) { return *this = *this - a; }
     constexpr Vec3& operator*=(double s) { return *this = s * *this; }
