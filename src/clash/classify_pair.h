@@ -24,7 +24,7 @@ struct ClashPart {
 
 /// The version of the answers that classify_pair() gives. It grows with every change of the program that
 /// alters one, so that a store does not keep the answers of an older program.
-constexpr std::int64_t kAnswersVersion = 1;
+constexpr std::int64_t kAnswersVersion = 2;
 
 /// Returns the clash of two parts, or none. All members are filled in except the ids, models, parts,
 /// rule, severity and neighbours.
@@ -33,11 +33,10 @@ constexpr std::int64_t kAnswersVersion = 1;
 /// Accuracy    whether surfaces meet, whether they cross and whether a part is contained are
 ///             decided exactly; `hard`, `touch` and `duplicate` at a touch tolerance are proven
 ///             (meeting_kind.h). The distance of parts that do not meet is exact to double rounding.
-///             The depth of a `hard` clash is reached at its witness points; it is the largest to 1
-///             %, or as near as 200 samples of each surface come (1,000 as long as none has reached
-///             a depth). A part in blocks gets the kind, distance and contacts of the whole model,
-///             to the last bit, and its depth within the accuracy of both. The bits do not depend
-///             on which mesh blocks are in memory.
+///             The depth of a `hard` clash in a solid is reached at its witness points; it is the
+///             largest to 2^-20 (meeting_kind.h). A part in blocks gets the kind, distance and
+///             contacts of the whole model, to the last bit, and its depth within the accuracy of
+///             both. The bits do not depend on which mesh blocks are in memory.
 ///             The volume has its own bound of error; of parts in blocks, it is summed in another
 ///             order.
 /// Cost        all contacts are in memory together, 12 to 28 bytes each; those of duplicates are

@@ -17,8 +17,8 @@ namespace abut {
 
 namespace {
 
-/// Samples of each surface, at most, to make a depth accurate. docs/clash.md gives the accuracy.
-constexpr int kSamples = 200;
+/// Samples of each surface for a first depth.
+constexpr int kSamples = 8;
 
 /// Directions along which the parts are likely to overlap little: the axes, and the normals of some
 /// faces in contact.
@@ -40,7 +40,8 @@ LocalPenetration depth_at(const WorldSolid& a, const WorldSolid& b, const Vec3& 
     const double anywhere = std::numeric_limits<double>::infinity();
     const WorldSolid::Nearest on_a = a.nearest(point, anywhere), on_b = b.nearest(point, anywhere);
     LocalPenetration p;
-    p.depth = p.at_most = std::max(on_a.distance, on_b.distance);
+    p.depth = std::max(on_a.distance, on_b.distance);
+    p.at_most = std::numeric_limits<double>::infinity();
     p.point_a = on_a.point, p.point_b = on_b.point;
     p.direction = normalized_or_zero(p.point_a - p.point_b);
     p.triangles = {a.triangle_at(on_a.slot), b.triangle_at(on_b.slot)};
@@ -52,9 +53,31 @@ LocalPenetration depth_at(const WorldSolid& a, const WorldSolid& b, const Vec3& 
 LocalPenetration thickness_at(const WorldSolid& a, const WorldSolid& b, const Vec3& middle) {
     LocalPenetration p = depth_at(a, b, middle);
     const double to_a = length(p.point_a - middle), to_b = length(p.point_b - middle);
-    p.depth = p.at_most = 2 * std::min(to_a, to_b);
+    p.depth = 2 * std::min(to_a, to_b);
     p.direction = normalized_or_zero(to_a < to_b ? p.point_a - middle : middle - p.point_b);
     return p;
+}
+
+/// Replaces a depth by a larger one. What is proven about the depth in solids stays.
+void replace(LocalPenetration& depth, const LocalPenetration& larger) {
+    const double at_most = depth.at_most, rounding = depth.rounding;
+    depth = larger;
+    depth.at_most = at_most, depth.rounding = rounding;
+}
+
+/// Makes a depth in a solid accurate, to 2^-20, unless the search takes too long. A depth that is a small
+/// part of the touch tolerance or, without one, of the parts' size is not searched for.
+void deepen(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts,
+            double touch, LocalPenetration& depth) {
+    constexpr double kPartOfTouch = 0x1p-7, kPartOfSize = 0x1p-23;
+    constexpr std::uint32_t kPieces = 4096;
+    const double size = std::min(a.world_size(), b.world_size()),
+                 least = touch > 0 ? kPartOfTouch * touch : kPartOfSize * size;
+    const std::vector<Vec3> directions = likely_directions(a, b, contacts);
+    const SolidDepth found = solid_depth(a, b, {least, kPieces, directions}, depth.depth);
+    if (found.depth > depth.depth)
+        replace(depth, depth_at(a, b, found.point));
+    depth.at_most = std::min(depth.at_most, found.at_most);
 }
 
 /// Decides whether two parts, one of them a solid, go at most `touch` into each other. If not, `depth`
@@ -71,12 +94,12 @@ Proof overlaps_at_most(const WorldSolid& a, const WorldSolid& b, std::span<const
     const Proof shallow =
         depth.at_most <= touch ? Proof::holds : nowhere_deeper(a, b, search, &found);
     if (shallow == Proof::fails)
-        depth = depth_at(a, b, found);
+        replace(depth, depth_at(a, b, found));
     if (shallow == Proof::fails || !a.bounds_solid() || !b.bounds_solid())
         return shallow;
     const Proof thin = nowhere_thicker(a, b, search, &found);
     if (thin == Proof::fails)
-        depth = thickness_at(a, b, found);
+        replace(depth, thickness_at(a, b, found));
     return thin == Proof::holds ? shallow : thin;
 }
 
@@ -195,19 +218,26 @@ Proof cross_at_most(PartPair& pair, SheetsOfPair& sheets, double touch, LocalPen
                        : overlap_if_moved(of_a, of_b, shift, touch,
                                           [&](const Contact& c) { return sheets.have(c); });
     if (overlap.depth > depth.depth)
-        depth = depth_at(a, b, overlap.point);
+        replace(depth, depth_at(a, b, overlap.point));
     return overlap.within;
 }
 
-LocalPenetration depth_of(const WorldSolid& a, const WorldSolid& b,
-                          std::span<const Contact> contacts, double touch) {
+/// A first depth, near contacts.
+LocalPenetration first_depth(const WorldSolid& a, const WorldSolid& b,
+                             std::span<const Contact> contacts) {
     DepthSearch options;
     options.threshold = 0;
-    options.accuracy_budget = kSamples;
-    if (touch > 0)
-        options.reach_budget = kSamples;
-    LocalPenetration found = local_penetration(a, b, contacts, options);
-    if (found.depth > 0 || touch > 0)
+    options.accuracy_budget = options.reach_budget = kSamples;
+    return local_penetration(a, b, contacts, options);
+}
+
+/// The depth of parts that interpenetrate, whatever the tolerance.
+LocalPenetration depth_of(const WorldSolid& a, const WorldSolid& b,
+                          std::span<const Contact> contacts) {
+    LocalPenetration found = first_depth(a, b, contacts);
+    if (a.bounds_solid() || b.bounds_solid())
+        deepen(a, b, contacts, 0, found);
+    if (found.depth > 0)
         return found;
     // Solids that have next to nothing in common are not locked into each other.
     const double next_to_nothing = 0x1p-20 * std::min(a.world_size(), b.world_size());
@@ -227,11 +257,13 @@ MeetingKind meeting_kind(PartPair& pair, std::span<const Contact> contacts, cons
     if (knows_all && !meeting.interpenetrate)
         return {};
     MeetingKind result{ClashKind::hard, {}};
-    const bool sheets_only = !a.bounds_solid() && !b.bounds_solid();
-    if (touch == 0 || !sheets_only)
-        result.penetration = depth_of(a, b, contacts, touch);
-    if (touch == 0)
+    if (touch == 0) {
+        result.penetration = depth_of(a, b, contacts);
         return result;
+    }
+    const bool sheets_only = !a.bounds_solid() && !b.bounds_solid();
+    if (!sheets_only)
+        result.penetration = first_depth(a, b, contacts);
     const bool is_deep = result.penetration.depth > touch + rounding_of_lengths(a, b);
     Proof within = is_deep ? Proof::fails : Proof::holds;
     SheetsOfPair sheets(a, b);
@@ -242,6 +274,8 @@ MeetingKind meeting_kind(PartPair& pair, std::span<const Contact> contacts, cons
         within = both_hold(within, overlaps_at_most(a, b, contacts, touch, result.penetration));
     if (within != Proof::fails)
         result.kind = within == Proof::holds ? ClashKind::touch : ClashKind::undecided;
+    if (!sheets_only)
+        deepen(a, b, contacts, touch, result.penetration);
     return result;
 }
 
@@ -254,6 +288,7 @@ MeetingKind kind_of_partly_inside(PartPair& pair, const Vec3& point, double touc
         if (within != Proof::fails)
             result.kind = within == Proof::holds ? ClashKind::touch : ClashKind::undecided;
     }
+    deepen(a, b, {}, touch, result.penetration);
     return result;
 }
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -78,6 +79,25 @@ std::vector<CuttingPlane> bounds_of_depth(const WorldSolid& solid, std::span<con
         bounds.push_back({lowest + limit * along, -along});
     }
     return bounds;
+}
+
+/// Searches for the deepest point of a surface in a solid, deeper than a limit.
+SolidDepth deepest_of(const WorldSolid& surface, const WorldSolid& solid, double limit,
+                      double rounding, const ToleranceSearch& options) {
+    constexpr double kRaise = 0x1p-20;
+    ReachSearch search(solid, {.limit = limit,
+                               .raise = kRaise,
+                               .rounding = rounding,
+                               .bounds = bounds_of_depth(solid, options.directions, limit),
+                               .budget = options.budget});
+    for_each_face_in_reach(surface, grown(solid.world_box(), rounding), 0, search,
+                           [&](const Triangle& face, std::uint32_t) {
+                               return search.add(polygon_of(face)) == Proof::holds;
+                           });
+    return {search.depth(),
+            search.proof() == Proof::holds ? search.limit()
+                                           : std::numeric_limits<double>::infinity(),
+            search.counterexample()};
 }
 
 Answer all_points_pass(const WorldSolid& surface, const WorldSolid& solid,
@@ -167,6 +187,25 @@ Proof nowhere_deeper(const WorldSolid& a, const WorldSolid& b, const ToleranceSe
     if (found != nullptr)
         *found = seen.origin + answer.found;
     return answer.proof;
+}
+
+SolidDepth solid_depth(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options,
+                       double known) {
+    const SeenPair seen(a, b);
+    const double least = std::max(known, options.tolerance);
+    SolidDepth best{0, least, {}};
+    const auto look = [&](const WorldSolid& surface, const WorldSolid& solid) {
+        if (!solid.bounds_solid())
+            return;
+        const SolidDepth found =
+            deepest_of(surface, solid, std::max(least, best.depth), seen.rounding, options);
+        if (found.depth > best.depth)
+            best.depth = found.depth, best.point = seen.origin + found.point;
+        best.at_most = std::max(best.at_most, found.at_most);
+    };
+    look(*seen.seen_a, *seen.seen_b);
+    look(*seen.seen_b, *seen.seen_a);
+    return best;
 }
 
 Proof nowhere_thicker(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options,

@@ -31,6 +31,24 @@ double rounding_of_lengths(const WorldSolid& a, const WorldSolid& b);
 Proof nowhere_deeper(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options,
                      Vec3* found = nullptr);
 
+/// How deep a surface point of one part lies in another one, at most.
+struct SolidDepth {
+    double depth = 0;   ///< of the point; 0 if none was found
+    double at_most = 0; ///< no point is deeper, to rounding; infinite if the budget did not suffice
+    Vec3 point;         ///< a surface point, in the world
+};
+
+/// Finds the surface point of a solid that lies deepest in the other one. One of the two may be no solid:
+/// then only its points count.
+///
+/// In          known: a depth that some point has. Points that are hardly deeper are not searched for.
+///             options: below its tolerance, no difference of depths matters.
+/// Accuracy    at_most is the largest of the tolerance and, 2^-20 larger, the depth and the known depth; or
+///             infinite.
+/// Source      a search that raises its limit (reach_search.h).
+SolidDepth solid_depth(const WorldSolid& a, const WorldSolid& b, const ToleranceSearch& options,
+                       double known);
+
 /// Decides whether the common part of two solids holds no ball of a diameter above t.
 ///
 /// In          no surface point of one lies deeper than t in the other.

@@ -206,9 +206,9 @@ bool ReachSearch::rules_out_by_either(const Vec3& middle, double radius) {
 
 bool ReachSearch::rules_out_by(const WorldSolid& surface, KnownSide& side, const Vec3& middle,
                                double radius) {
-    const double enough = std::max(radius, options_.limit - radius);
+    const double enough = std::max(radius, limit_ - radius);
     const WorldSolid::Nearest nearest = surface.nearest(middle, {.enough = enough});
-    if (nearest.distance + radius <= options_.limit)
+    if (nearest.distance + radius <= limit_)
         return true;
     return !options_.both_sides && nearest.distance > radius + options_.rounding &&
            !is_inside(surface, middle, side);
@@ -217,7 +217,7 @@ bool ReachSearch::rules_out_by(const WorldSolid& surface, KnownSide& side, const
 bool ReachSearch::is_near(const FacePolygon& polygon, const WorldSolid& surface,
                           const Slots& slots) const {
     // Twice the rounding: then every piece that is smaller than the rounding is near or beyond.
-    const double limit = options_.limit + 2 * options_.rounding;
+    const double limit = limit_ + 2 * options_.rounding;
     return std::ranges::any_of(slots, [&](std::uint32_t slot) {
         const PreparedTriangle& t = surface.prepared_slot(slot);
         return std::ranges::all_of(
@@ -235,11 +235,11 @@ void ReachSearch::examine(Piece& piece) {
     remember(piece.near, sample.nearest.slot);
     if (is_near(piece.polygon, solid_, {sample.nearest.slot}))
         return;
-    const double distance = sample.nearest.distance, limit = options_.limit + options_.rounding;
+    const double distance = sample.nearest.distance, limit = limit_ + options_.rounding;
     if (distance <= limit && divide_near(piece, solid_.prepared_slot(sample.nearest.slot)))
         return;
     if (distance > limit && options_.both_sides)
-        return refute(sample.point);
+        return refute(piece, sample);
     if (options_.both_sides)
         return halve(piece);
     const std::optional<Triangle> met = distance <= sample.radius + options_.rounding
@@ -252,7 +252,9 @@ void ReachSearch::examine(Piece& piece) {
         if (settled_by_own(piece, sample, distance > limit && inside))
             return;
     } else if (distance > limit && inside) {
-        return refute(sample.point);
+        if (options_.raise > 0 && !met)
+            move_to_deepest_corner(piece.polygon, sample);
+        return refute(piece, sample);
     }
     if (met && divide_near(piece, PreparedTriangle(*met)))
         return;
@@ -263,7 +265,7 @@ void ReachSearch::examine(Piece& piece) {
 /// refuted or divided.
 bool ReachSearch::settled_by_own(Piece& piece, const Sample& sample, bool deep) {
     const WorldSolid& own = *options_.own;
-    const double limit = options_.limit + options_.rounding;
+    const double limit = limit_ + options_.rounding;
     const std::uint32_t* seed = piece.near_own.empty() ? nullptr : piece.near_own.data();
     const WorldSolid::Nearest nearest = own.nearest(sample.point, {.seed = seed});
     remember(piece.near_own, nearest.slot);
@@ -271,7 +273,7 @@ bool ReachSearch::settled_by_own(Piece& piece, const Sample& sample, bool deep) 
         return is_near_own(piece) || divide_near(piece, own.prepared_slot(nearest.slot));
     if (is_inside(own, sample.point, piece.side_of_own)) {
         if (deep)
-            refute(sample.point);
+            refute(piece, sample);
         return deep;
     }
     if (nearest.distance > sample.radius + options_.rounding)
@@ -284,9 +286,25 @@ bool ReachSearch::is_near_own(const Piece& piece) const {
     return options_.own != nullptr && is_near(piece.polygon, *options_.own, piece.near_own);
 }
 
-void ReachSearch::refute(const Vec3& point) {
-    proof_ = Proof::fails;
-    counterexample_ = point;
+/// Moves a sample to the corner that is farther from the surface than it, if one is.
+void ReachSearch::move_to_deepest_corner(const FacePolygon& polygon, Sample& sample) const {
+    const std::uint32_t seed = sample.nearest.slot;
+    for (const Vec3& corner : polygon) {
+        const WorldSolid::Nearest nearest = solid_.nearest(corner, {.seed = &seed});
+        if (nearest.distance > sample.nearest.distance)
+            sample.point = corner, sample.nearest = nearest;
+    }
+}
+
+void ReachSearch::refute(const Piece& piece, const Sample& sample) {
+    counterexample_ = sample.point;
+    depth_ = sample.nearest.distance;
+    if (options_.raise == 0) {
+        proof_ = Proof::fails;
+        return;
+    }
+    limit_ = depth_ * (1 + options_.raise);
+    waiting_.push_back(piece);
 }
 
 /// Cuts away the part of a piece that a cell around a triangle proves to be near. Returns false if
@@ -295,9 +313,9 @@ bool ReachSearch::divide_near(const Piece& piece, const PreparedTriangle& t) {
     const auto try_cell = [&](const CellPlanes& planes) {
         return cut_away(piece, {planes.data(), planes.size()});
     };
-    return try_cell(prism_around(t.corners(), options_.limit)) ||
-           try_cell(neighbourhood_of(t.corners(), options_.limit)) ||
-           try_cell(cell_beside(t, middle_of(piece.polygon), options_.limit, options_.rounding));
+    return try_cell(prism_around(t.corners(), limit_)) ||
+           try_cell(neighbourhood_of(t.corners(), limit_)) ||
+           try_cell(cell_beside(t, middle_of(piece.polygon), limit_, options_.rounding));
 }
 
 bool ReachSearch::cut_away(const Piece& piece, std::span<const CuttingPlane> cell) {

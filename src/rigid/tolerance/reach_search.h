@@ -36,6 +36,7 @@ inline Proof either_holds(Proof p, Proof q) {
 ///
 /// A point x is *beyond* if it lies in the solid farther than the limit from the solid's surface.
 /// With a second surface, x must also be farther than the limit from that one, and inside it.
+/// A search for the deepest point raises the limit whenever it finds a point beyond, and goes on.
 ///
 /// In          all in one frame, near its origin. Only one thread may use the solids.
 /// Accuracy    a point found beyond is so by more than the rounding. If none is found and the budget
@@ -50,6 +51,9 @@ class ReachSearch {
 public:
     struct Options {
         double limit = 0;
+        /// If positive: a point beyond does not end the search, but raises the limit to its depth and
+        /// this part of it.
+        double raise = 0;
         double rounding = 0;             ///< of distances between points of the surfaces
         const WorldSolid* own = nullptr; ///< the second surface, if any
         /// Also points outside count: decides whether all points are near the surface.
@@ -63,16 +67,20 @@ public:
     static constexpr double kShareOfPolygon = 1.0 / 4096;
 
     ReachSearch(const WorldSolid& solid, Options options)
-        : solid_(solid), options_(std::move(options)),
-          box_(grown(solid.world_box(), options_.limit + options_.rounding)),
-          left_(options_.budget) {}
+        : solid_(solid), options_(std::move(options)), limit_(options_.limit),
+          box_(grown(solid.world_box(), limit_ + options_.rounding)), left_(options_.budget) {}
 
     /// Examines one more polygon, unless one before was not proven.
     Proof add(const FacePolygon& polygon);
     /// The answer about all polygons so far.
     [[nodiscard]] Proof proof() const { return proof_; }
-    /// If the proof fails: a point that is beyond.
+    /// If the proof fails: a point that is beyond. Of a search that raises the limit: the deepest point
+    /// found, if depth() is positive.
     [[nodiscard]] const Vec3& counterexample() const { return counterexample_; }
+    /// How far the counterexample is from the solid's surface; 0 without one.
+    [[nodiscard]] double depth() const { return depth_; }
+    /// The limit that the proof is about.
+    [[nodiscard]] double limit() const { return limit_; }
 
     /// Examines a ball that encloses faces. Returns whether no point of it is beyond; none if that
     /// needs a look at the faces.
@@ -103,7 +111,8 @@ private:
                                const Slots& slots) const;
     [[nodiscard]] bool is_near_own(const Piece& piece) const;
     [[nodiscard]] bool settled_by_own(Piece& piece, const Sample& sample, bool deep);
-    void refute(const Vec3& point);
+    void move_to_deepest_corner(const FacePolygon& polygon, Sample& sample) const;
+    void refute(const Piece& piece, const Sample& sample);
     [[nodiscard]] bool divide_near(const Piece& piece, const PreparedTriangle& t);
     [[nodiscard]] bool cut_away(const Piece& piece, std::span<const CuttingPlane> cell);
     void push(const FacePolygon& polygon, const Piece& parent);
@@ -111,10 +120,12 @@ private:
 
     const WorldSolid& solid_;
     const Options options_;
+    double limit_;
     const Box3 box_; ///< points outside of it are neither in the solid nor near it
     std::uint64_t left_;
     Proof proof_ = Proof::holds;
     Vec3 counterexample_;
+    double depth_ = 0;
     Piece last_; ///< the last that was examined: the next polygon is often near it
     std::vector<Piece> waiting_;
 };

@@ -88,10 +88,13 @@ inline void expect_equal(const ClashReport& report, const std::vector<Scene>& mo
         ASSERT_EQ(a.id, b.id);
         ASSERT_EQ(a.kind, b.kind);
         ASSERT_EQ(a.model, b.model);
-        ASSERT_EQ(a.distance, b.distance);
-        ASSERT_EQ(a.point_a, b.point_a);
-        ASSERT_EQ(a.point_b, b.point_b);
-        ASSERT_EQ(a.direction, b.direction);
+        // Depths are found to 2^-20, and of equally deep points any may be told.
+        ASSERT_NEAR(a.distance, b.distance, a.distance < 0 ? -0x1p-19 * a.distance : 0);
+        if (a.distance == b.distance && a.kind != ClashKind::hard) {
+            ASSERT_EQ(a.point_a, b.point_a);
+            ASSERT_EQ(a.point_b, b.point_b);
+            ASSERT_EQ(a.direction, b.direction);
+        }
         ASSERT_EQ(a.triangle_pairs, b.triangle_pairs);
         ASSERT_EQ(a.rule, b.rule);
         ASSERT_EQ(a.severity, b.severity);

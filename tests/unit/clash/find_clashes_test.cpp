@@ -91,7 +91,7 @@ TEST(FindClashes, Contained) {
                                         box_mesh({3, 0.25, 0.25}, {3.5, 0.5, 0.5})));
     ASSERT_TRUE(partly);
     EXPECT_EQ(partly->kind, ClashKind::hard);
-    EXPECT_EQ(partly->distance, -0.25);
+    EXPECT_EQ(partly->distance, -0.5); // at the corner in the middle of the unit box
 }
 
 /// A part whose shells overlap is their union: what lies across a face inside is contained.
@@ -299,7 +299,7 @@ TEST(FindClashes, ModelsOfOtherAxesAreTurnedIntoTheFrameOfTheFirst) {
     // With z up from (0, 0, 3) to (1, 1, 4); with y up this is from (0, 3, -1) to (1, 4, 0).
     Scene z_up = scene_of("z", box_mesh({0, 0, 3}, {1, 1, 4}));
     z_up.up = UpAxis::z;
-    const Scene y_up = scene_of("y", box_mesh({0.25, 3.25, -0.5}, {0.75, 3.75, 5}));
+    const Scene y_up = scene_of("y", box_mesh({0.375, 3.375, -0.25}, {0.625, 3.625, 5}));
     const ClashReport first_z = find_clashes({z_up, y_up}, {});
     const ClashReport first_y = find_clashes({y_up, z_up}, {});
     EXPECT_EQ(first_z.frame.up, UpAxis::z);
@@ -315,7 +315,7 @@ TEST(FindClashes, ModelsOfOtherAxesAreTurnedIntoTheFrameOfTheFirst) {
     EXPECT_GT(first_y.clashes[0].point_a.z, -0.51);
     EXPECT_GE(first_y.clashes[0].point_a.y, 3.2);
     EXPECT_TRUE(first_z.warnings.empty());
-    const Scene same_axes = scene_of("y", box_mesh({0.25, 3.25, -0.5}, {0.75, 3.75, 5}));
+    const Scene same_axes = scene_of("y", box_mesh({0.375, 3.375, -0.25}, {0.625, 3.625, 5}));
     z_up.up = UpAxis::y;
     EXPECT_EQ(find_clashes({z_up, same_axes}, {}).clashes.size(), 0U);
 }

@@ -242,7 +242,7 @@ TEST(OpenSurfaces, EndAtTheSolidsOfTheOtherPart) {
                         const auto clash = classified(swap ? both : plate, swap ? plate : both,
                                                       tolerance, world, world);
                         EXPECT_EQ(kind_word(clash), to_string(kind));
-                        EXPECT_NEAR(-clash->distance, reach + in_box, 1e-8);
+                        EXPECT_NEAR(-clash->distance, reach + in_box, 1e-6 * (reach + in_box));
                     }
         }
 }
