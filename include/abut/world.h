@@ -46,7 +46,7 @@ struct WorldOptions {
 /// - If they share a point, minus the depth. A closed model is a solid here. The depth of convex
 ///   bodies is the length of their shortest separating motion. That of a closed model and a ball is
 ///   the radius and, where the centre lies inside, the centre's distance from the surface. For the
-///   other pairs with a model, World::penetration says which lower bound of that motion it is.
+///   other pairs with a model, World::penetration says which bound of that motion it is.
 struct BodyGap {
     BodyId a, b;
     double distance = 0; ///< 0 if they touch; a gap below rounding is the least number above 0
@@ -58,8 +58,9 @@ struct BodyGap {
     Vec3 normal;
     std::uint32_t triangle_a = 0, triangle_b = 0; ///< of models; else 0
     /// exact: to rounding. bound_only: bodies of which one is a model are at least this deep in
-    /// each other. For two solids, and for models that coincide, a motion of this length separates
-    /// them, but no proof excludes a shorter one.
+    /// each other. For two solids, for models that coincide, and for motions across a face
+    /// (World::penetration), a motion of this length separates them, but no proof excludes a shorter
+    /// one.
     Status status = Status::exact;
 };
 
@@ -211,8 +212,10 @@ public:
     ///             surface, the depth in one of the triangles that it crosses (bound_only). For
     ///             cylinders, cones and ellipsoids it is correct
     ///             to 1e-12 of the size of both bodies, unless nearly equal motions along very many
-    ///             directions separate them (bound_only); with a model, it is that of one of its
-    ///             triangles (bound_only). For a half-space it is correct to rounding. Two
+    ///             directions separate them (bound_only). With a model, it is a motion across a face
+    ///             that parts them from all triangles that they meet, where one is found; else the
+    ///             depth in one of these (bound_only). The same holds for a box or a convex body and
+    ///             an open surface. For a half-space it is correct to rounding. Two
     ///             half-spaces that meet are infinitely deep in each other, unless their normals are
     ///             opposite.
     std::vector<BodyGap> penetration(const Progress& progress = {});

@@ -2,6 +2,7 @@
 
 #include <abut/rigid.h>
 
+#include "math/transform.h"
 #include "math/vector.h"
 #include "rigid/manifold/touching_direction.h"
 
@@ -12,10 +13,32 @@ namespace abut {
 
 namespace {
 
+/// Of the difference of two points, relative to their coordinates.
+constexpr double kRoundingOfWay = 0x1p-49;
+
 BodyGap from_rigid(const Gap& gap, const Vec3& normal) {
     return {{},          {},     gap.distance,   gap.point_a,
             gap.point_b, normal, gap.triangle_a, gap.triangle_b,
             gap.status};
+}
+
+/// The normal of a triangle of a model, where a way is that but for rounding. Else the way's direction.
+///
+/// In          error: bounds the rounding of the way.
+Vec3 without_rounding(const Vec3& way, double error, const Model& model, const Transform& world,
+                      std::uint32_t triangle) {
+    constexpr double kMostTurned = 0x1p-5;
+    const Vec3 direction = normalized_or_zero(way);
+    const Mesh& mesh = model.mesh();
+    if (direction == Vec3{} || triangle >= mesh.triangles.size())
+        return direction;
+    const auto& corners = mesh.triangles[triangle];
+    const auto corner = [&](std::size_t i) { return apply(world, mesh.positions[corners[i]]); };
+    const Vec3 p = corner(0), normal = normalized_or_zero(cross(corner(1) - p, corner(2) - p));
+    const double turned = std::min(kMostTurned, error / length(way));
+    if (length(direction - normal) <= turned)
+        return normal;
+    return length(direction + normal) <= turned ? -normal : direction;
 }
 
 } // namespace
@@ -31,7 +54,13 @@ BodyGap model_gap(const Model& a, const Transform& world_from_a, const Model& b,
     // If the models overlap, moving b along the normal brings its point to a's point.
     const Vec3 between = found.point_b - found.point_a,
                way = found.distance < 0 ? -between : between;
-    BodyGap gap = from_rigid(found, normalized_or_zero(way));
+    const double error =
+        kRoundingOfWay * (sum_of_sizes(world_from_a) + sum_of_sizes(world_from_b) +
+                          sum_of_sizes(found.point_a) + sum_of_sizes(found.point_b));
+    Vec3 direction = without_rounding(way, error, a, world_from_a, found.triangle_a);
+    if (direction == normalized_or_zero(way))
+        direction = without_rounding(way, error, b, world_from_b, found.triangle_b);
+    BodyGap gap = from_rigid(found, direction);
     const bool has_points = found.distance <= options.upper_bound;
     if (has_points && (found.distance > 0 || depths == Depths::yes))
         if (const auto normal =

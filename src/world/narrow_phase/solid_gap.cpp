@@ -4,6 +4,7 @@
 #include "convex/support/support_gap.h"
 #include "math/transform.h"
 #include "rigid/model/placed_model.h"
+#include "world/narrow_phase/parting_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,13 +21,6 @@ BodyGap gap_of(const SupportGap& found) {
     gap.point_a = found.point_a, gap.point_b = found.point_b;
     gap.status = found.bounds_agree ? Status::exact : Status::bound_only;
     return gap;
-}
-
-/// A box around a solid in the world.
-Box3 box_around(const SupportShape& solid) {
-    const double by =
-        (solid.reach + solid.radius) * (1 + 0x1p-40) + 0x1p-40 * max_abs(solid.centre);
-    return grown(Box3{solid.centre, solid.centre}, by);
 }
 
 /// Finds the triangle that is nearest to a solid, or deepest in it.
@@ -122,6 +116,12 @@ std::optional<SupportShape> support_of(const PlacedBody& body) {
     return std::nullopt;
 }
 
+Box3 box_around(const SupportShape& solid) {
+    const double by =
+        (solid.reach + solid.radius) * (1 + 0x1p-40) + 0x1p-40 * max_abs(solid.centre);
+    return grown(Box3{solid.centre, solid.centre}, by);
+}
+
 BodyGap solid_gap(const SupportShape& a, const SupportShape& b, double upper_bound,
                   Vec3& direction) {
     return gap_of(support_gap(a, b, upper_bound, SupportDepths::yes, direction));
@@ -165,12 +165,31 @@ bool surface_meets(const Model& model, const Transform& world_from_model, const 
     return meet;
 }
 
+void part_from_surface(BodyGap& gap, const PlacedModel& model, const SupportShape& solid) {
+    const double touching =
+        0x1p-45 * (max_abs(solid.centre) + solid.reach + solid.radius + model.reach());
+    if (gap.distance > touching)
+        return;
+    const PartingMotion of_one{gap.normal, std::max(-gap.distance, 0.0), gap.point_b,
+                               gap.triangle_a};
+    const auto motion = find_parting_motion(model, solid, of_one, touching);
+    if (!motion)
+        return;
+    gap.distance = -motion->length, gap.normal = motion->direction;
+    gap.point_b = motion->point;
+    gap.point_a = motion->point + motion->length * motion->direction;
+    gap.triangle_a = motion->triangle;
+    gap.status = Status::bound_only;
+}
+
 BodyGap surface_gap(const Model& model, const Transform& world_from_model,
                     const SupportShape& solid, double upper_bound, Depths depths) {
     const PlacedModel placed_model(model, world_from_model);
     BodyGap gap = NearestTriangle(placed_model, solid, upper_bound, depths).find();
     if (gap.distance <= 0 && depths == Depths::yes)
         gap.status = Status::bound_only;
+    if (depths == Depths::yes)
+        part_from_surface(gap, placed_model, solid);
     if (gap.distance < 0 && depths == Depths::no) // how deep they meet was not asked
         gap.distance = 0, gap.normal = {}, gap.point_b = gap.point_a;
     return gap;

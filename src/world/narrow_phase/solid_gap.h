@@ -1,5 +1,6 @@
 #pragma once
 
+#include "rigid/model/placed_model.h"
 #include "world/narrow_phase/narrow_phase.h"
 
 #include <optional>
@@ -12,6 +13,9 @@ SupportShape support_of(const ConvexShape& convex, const Transform& world_from_b
 SupportShape support_of(const RoundedBox& solid);
 /// The support shape of a body in the world; none for a surface or a half-space.
 std::optional<SupportShape> support_of(const PlacedBody& body);
+
+/// A box around a solid in the world.
+Box3 box_around(const SupportShape& solid);
 
 /// The gap of two solids, ids not set.
 BodyGap solid_gap(const SupportShape& a, const SupportShape& b, double upper_bound,
@@ -28,6 +32,10 @@ bool surface_meets(const Model& model, const Transform& world_from_model, const 
 /// triangle that is deep in the solid (bound_only).
 BodyGap surface_gap(const Model& model, const Transform& world_from_model,
                     const SupportShape& solid, double upper_bound, Depths depths);
+/// Makes the depth of a solid in a surface that it meets the length of a motion that parts them, at least
+/// from the triangles that it meets, and its normal the way (parting_motion.h). A gap of rounding size
+/// gets such a normal, too.
+void part_from_surface(BodyGap& gap, const PlacedModel& model, const SupportShape& solid);
 /// The gap of a model's surface and a half-space: that of the lowest vertex.
 BodyGap surface_gap(const Model& model, const Transform& world_from_model, const PlaneShape& plane);
 
