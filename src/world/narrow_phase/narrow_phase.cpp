@@ -184,21 +184,14 @@ BodyGap measure(const PlacedSurface& a, const PlacedSurface& b, double upper_bou
     return model_gap(a.shape, a.world, b.shape, b.world, upper_bound, depths, warm_start.surfaces);
 }
 
-/// An open surface has no inside, so the depth of a solid in it is how far it must move.
-void part_from_open(BodyGap& gap, const PlacedSurface& a, const SupportShape& solid,
-                    Depths depths) {
-    if (depths == Depths::yes && gap.distance <= 0 && !a.shape.data().solid().closed)
-        part_from_surface(gap, PlacedModel(a.shape, a.world), solid);
-}
-
 BodyGap measure(const PlacedSurface& a, const PlacedConvex& b, double upper_bound, Depths depths,
                 PairWarmStart& warm_start) {
     BodyGap gap = model_gap(a.shape, a.world, b.shape.surface, b.world, upper_bound, depths,
                             warm_start.surfaces);
-    // A surface wholly inside the solid may be far from its faces, but is in contact.
+    // A surface in the solid may be far from its faces, but is in contact.
     if (gap.distance > 0 && meet(a, b, warm_start))
         set_touching(gap, kClearOfFaces * (sum_of_sizes(gap.point_b) + b.shape.solid.data().reach));
-    part_from_open(gap, a, support_of(b), depths);
+    part_from_open(gap, a.shape, a.world, support_of(b), depths);
     return gap;
 }
 
@@ -262,14 +255,13 @@ BodyGap measure(const PlacedSurface& a, const PlacedRounded& b, double upper_bou
         BodyGap gap =
             model_gap(a.shape, a.world, faces.surface, compose(b.world, faces.body_from_surface),
                       upper_bound, depths, warm_start.surfaces);
-        // A surface wholly inside the box may be far from its faces, but is in contact. The faces of
-        // the box are rounded.
+        // A surface in the box may be far from its rounded faces, but is in contact.
         const double clear = kClearOfFaces * (sum_of_sizes(solid.centre) + solid.half[0] +
                                               solid.half[1] + solid.half[2]);
         if (gap.distance > 0 &&
             (gap.distance > clear ? any_component_inside(a, solid) : meet(a, b, warm_start)))
             set_touching(gap, clear);
-        part_from_open(gap, a, support_of(b), depths);
+        part_from_open(gap, a.shape, a.world, support_of(b), depths);
         return gap;
     }
 }

@@ -182,6 +182,12 @@ void part_from_surface(BodyGap& gap, const PlacedModel& model, const SupportShap
     gap.status = Status::bound_only;
 }
 
+void part_from_open(BodyGap& gap, const Model& model, const Transform& world_from_model,
+                    const SupportShape& solid, Depths depths) {
+    if (depths == Depths::yes && gap.distance <= 0 && !model.data().solid().closed)
+        part_from_surface(gap, PlacedModel(model, world_from_model), solid);
+}
+
 BodyGap surface_gap(const Model& model, const Transform& world_from_model,
                     const SupportShape& solid, double upper_bound, Depths depths) {
     const PlacedModel placed_model(model, world_from_model);

@@ -36,6 +36,10 @@ BodyGap surface_gap(const Model& model, const Transform& world_from_model,
 /// from the triangles that it meets, and its normal the way (parting_motion.h). A gap of rounding size
 /// gets such a normal, too.
 void part_from_surface(BodyGap& gap, const PlacedModel& model, const SupportShape& solid);
+/// The same, if depths are asked and the surface is open: it has no inside, so the depth of a solid in it
+/// is how far that must move.
+void part_from_open(BodyGap& gap, const Model& model, const Transform& world_from_model,
+                    const SupportShape& solid, Depths depths);
 /// The gap of a model's surface and a half-space: that of the lowest vertex.
 BodyGap surface_gap(const Model& model, const Transform& world_from_model, const PlaneShape& plane);
 
