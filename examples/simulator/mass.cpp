@@ -78,5 +78,8 @@ Mass mass_of(const abut::Model& model, double density) {
 Mass mass_of(const abut::Convex& convex, double density) {
     return mass_of(convex.mesh(), density);
 }
+Mass mass_of(const abut::HalfSpace& /*half_space*/, double /*density*/) {
+    throw abut::Error(abut::ErrorCode::bad_argument, "a half-space has no mass: give it density 0");
+}
 
 } // namespace simulation

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <abut/convex.h>
+#include <abut/curved_shapes.h>
 #include <abut/model.h>
 #include <abut/shapes.h>
 
@@ -26,5 +27,7 @@ Mass mass_of(const abut::Box3& box, double density);
 Mass mass_of(const abut::Mesh& mesh, double density);
 Mass mass_of(const abut::Model& model, double density);
 Mass mass_of(const abut::Convex& convex, double density);
+/// Errors      Error{bad_argument}: a half-space has no end, so it can only be static.
+Mass mass_of(const abut::HalfSpace& half_space, double density);
 
 } // namespace simulation

@@ -234,7 +234,9 @@ public:
     /// Accuracy    for convex bodies, spheres, capsules, boxes: the normal is that of BodyGap, and
     ///             the first point has its depth. Models, deformables with each other, boxes,
     ///             convex bodies: as `contact_manifolds` of models, but a body in a closed model,
-    ///             clear of its surface, is apart. For all others one point, as `penetration`.
+    ///             clear of its surface, is apart. A half-space with a body that has corners: up to
+    ///             four of these. A model or deformable with a capsule: the capsule's ends, and the
+    ///             point of `penetration` if that is deeper. For all others that one point.
     /// Errors      Error{bad_argument} if the margin is negative or not finite.
     /// Cost        with a margin, a second broad phase, which is kept from step to step. Contacts
     ///             of two models or deformables are kept while both stay in place.

@@ -5,6 +5,8 @@
 #include "math/transform.h"
 #include "math/vector.h"
 #include "rigid/manifold/surface_manifolds.h"
+#include "world/contacts/capsule_contacts.h"
+#include "world/contacts/plane_contacts.h"
 #include "world/contacts/solid_contacts.h"
 #include "world/narrow_phase/contact_rounding.h"
 #include "world/narrow_phase/offset_surface.h"
@@ -83,8 +85,8 @@ void append_one_point(const PlacedBody& a, const PlacedBody& b, double margin,
     // Witness points without a direction are one point.
     const Vec3 point_b =
         gap.normal == Vec3{} ? gap.point_a + gap.distance * manifold.normal : gap.point_b;
-    manifold.points[0] = {gap.point_a, point_b, -gap.distance,
-                          std::uint64_t{gap.triangle_a} << 32 | gap.triangle_b};
+    // One point keeps its name, wherever it goes.
+    manifold.points[0] = {gap.point_a, point_b, -gap.distance, 0};
     manifold.status = gap.status;
 }
 
@@ -127,6 +129,25 @@ bool has_faces(const BodyShape& shape) {
     return std::holds_alternative<RoundedBox>(shape) || std::holds_alternative<ConvexShape>(shape);
 }
 
+/// Adds the other corners of a body that stands on a half-space.
+void add_plane_corners(const PlacedBody& a, const PlacedBody& b, double margin,
+                       ContactManifold& manifold) {
+    const bool body_is_a = is_half_space(b.shape);
+    const PlacedBody &body = body_is_a ? a : b, &ground = body_is_a ? b : a;
+    const PlaneShape plane = placed(std::get<PlaneShape>(ground.shape), ground.world_from_body);
+    const ContactPoint& deepest = manifold.points[0];
+    const Vec3 origin = body_is_a ? deepest.point_a : deepest.point_b;
+    const ContactLimits limits{margin, contact_rounding(a, b) + 0x1p-50 * sum_of_sizes(origin)};
+    if (has_faces(body.shape)) {
+        set_plane_corners(face_of(body, -plane.normal, origin), body_is_a, plane, limits, manifold);
+    } else if (const auto triangles = triangles_of(body.shape)) {
+        const PlacedModel surface(triangles->surface,
+                                  compose(body.world_from_body, triangles->body_from_surface));
+        set_plane_corners(corners_over_plane(surface, plane, margin + limits.rounding, origin),
+                          body_is_a, plane, limits, manifold);
+    }
+}
+
 /// The contact of two convex shapes, by the cheapest way there is for them.
 bool solid_contact(const PlacedBody& a, const PlacedBody& b, double margin,
                    PairWarmStart& warm_start, ContactManifold& manifold) {
@@ -149,6 +170,21 @@ bool solid_contact(const PlacedBody& a, const PlacedBody& b, double margin,
         point.feature = turned_round(point.feature);
     }
     return is_near;
+}
+
+/// Adds the ends of a capsule on a surface.
+void add_capsule_points(const PlacedBody& a, const PlacedBody& b, double margin,
+                        ContactManifold& manifold) {
+    const bool capsule_is_a = is_surface(b.shape);
+    const PlacedBody &body = capsule_is_a ? a : b, &ground = capsule_is_a ? b : a;
+    const auto* rounded = std::get_if<RoundedBox>(&body.shape);
+    if (rounded == nullptr || dimension(*rounded) != 1)
+        return;
+    const RoundedBox solid = placed(*rounded, body.world_from_body);
+    const auto triangles = triangles_of(ground.shape);
+    add_capsule_ends(triangles->surface,
+                     compose(ground.world_from_body, triangles->body_from_surface),
+                     {axis_of(solid), solid.radius}, capsule_is_a, margin, manifold);
 }
 
 /// Whether two bodies are at most the margin apart, as the other queries of a world tell it.
@@ -230,6 +266,8 @@ void append_contacts(const BodiesInContact& bodies, double margin, PairWarmStart
             manifolds.erase(manifolds.begin() + static_cast<std::ptrdiff_t>(first),
                             manifolds.end());
             append_one_point(a, b, margin, warm_start, manifolds);
+            if (manifolds.size() > first && !is_half_space(a.shape) && !is_half_space(b.shape))
+                add_capsule_points(a, b, margin, manifolds[first]);
         }
     } else if (!has_faces(a.shape) || !has_faces(b.shape)) {
         append_one_point(a, b, margin, warm_start, manifolds);
@@ -238,6 +276,8 @@ void append_contacts(const BodiesInContact& bodies, double margin, PairWarmStart
     } else {
         manifolds.pop_back();
     }
+    if (manifolds.size() > first && is_half_space(a.shape) != is_half_space(b.shape))
+        add_plane_corners(a, b, margin, manifolds[first]);
     for (std::size_t i = first; i < manifolds.size(); ++i)
         manifolds[i].a = bodies.ids.a, manifolds[i].b = bodies.ids.b;
 }

@@ -17,23 +17,6 @@ void drop_beyond_margin(ContactCandidates& candidates, const ContactLimits& limi
                      candidates.end());
 }
 
-/// Writes the candidates that are within the margin, at most four.
-void write_points(ContactCandidates& candidates, const ContactFrame& frame,
-                  const ContactLimits& limits, ContactManifold& manifold) {
-    drop_beyond_margin(candidates, limits);
-    keep_four(candidates);
-    manifold.normal = frame.normal;
-    manifold.region = 0;
-    manifold.status = Status::exact;
-    manifold.count = static_cast<std::uint32_t>(candidates.size());
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-        const ContactCandidate& from = candidates[i];
-        manifold.points[i] = {frame.world(from.x, from.y, from.height_a),
-                              frame.world(from.x, from.y, from.height_b), from.depth(),
-                              from.feature};
-    }
-}
-
 double deepest_of(const ContactCandidates& candidates) {
     double depth = -HUGE_VAL;
     for (const ContactCandidate& each : candidates)
@@ -106,6 +89,22 @@ bool contact_by_axis(const RoundedBox& a, const RoundedBox& b, const ContactLimi
 }
 
 } // namespace
+
+void write_points(ContactCandidates& candidates, const ContactFrame& frame,
+                  const ContactLimits& limits, ContactManifold& manifold) {
+    drop_beyond_margin(candidates, limits);
+    keep_four(candidates);
+    manifold.normal = frame.normal;
+    manifold.region = 0;
+    manifold.status = Status::exact;
+    manifold.count = static_cast<std::uint32_t>(candidates.size());
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        const ContactCandidate& from = candidates[i];
+        manifold.points[i] = {frame.world(from.x, from.y, from.height_a),
+                              frame.world(from.x, from.y, from.height_b), from.depth(),
+                              from.feature};
+    }
+}
 
 bool set_corners(const ContactFace& a, const ContactFace& b, const ContactFrame& frame,
                  double depth, const ContactLimits& limits, ContactManifold& manifold) {

@@ -14,6 +14,11 @@ struct ContactLimits {
     double rounding = 0; ///< error bound of a depth
 };
 
+/// Writes the candidates that are within the margin, at most four, and the frame's normal. The region
+/// becomes 0, the status exact.
+void write_points(ContactCandidates& candidates, const ContactFrame& frame,
+                  const ContactLimits& limits, ContactManifold& manifold);
+
 /// Sets normal and points of a manifold from the corners of the region in which two faces lie over
 /// each other.
 ///

@@ -218,6 +218,17 @@ PlaneShape placed(const PlaneShape& plane, const Transform& world_from_body) {
     return {apply(world_from_body, plane.point), apply_linear(world_from_body, plane.normal)};
 }
 
+int dimension(const RoundedBox& box) {
+    return static_cast<int>(3 - std::count(box.half.begin(), box.half.end(), 0.0));
+}
+
+Segment axis_of(const RoundedBox& capsule) {
+    const auto longest = static_cast<std::size_t>(
+        std::max_element(capsule.half.begin(), capsule.half.end()) - capsule.half.begin());
+    const Vec3 along = capsule.half[longest] * capsule.axis[longest];
+    return {capsule.centre - along, capsule.centre + along};
+}
+
 Box3 bounds_of(const BodyShape& shape) {
     if (const auto* curved = std::get_if<CurvedShape>(&shape))
         return bounds_of_support(curved->solid);

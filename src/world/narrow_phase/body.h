@@ -82,6 +82,11 @@ RoundedBox placed(const RoundedBox& box, const Transform& world_from_body);
 SupportShape placed(const CurvedShape& curved, const Transform& world_from_body);
 PlaneShape placed(const PlaneShape& plane, const Transform& world_from_body);
 
+/// The number of axes on which a box has an extent: 0 for a ball, 1 for a capsule.
+int dimension(const RoundedBox& box);
+/// The axis of a capsule.
+Segment axis_of(const RoundedBox& capsule);
+
 /// The box of a shape in its own frame; empty for a model without triangles. That of a half-space is
 /// infinite.
 Box3 bounds_of(const BodyShape& shape);

@@ -54,17 +54,6 @@ SupportShape support_of(const PlacedCurved& curved) {
     return placed(curved.shape, curved.world);
 }
 
-int dimension(const RoundedBox& box) {
-    return static_cast<int>(3 - std::count(box.half.begin(), box.half.end(), 0.0));
-}
-
-Segment axis_of(const RoundedBox& capsule) {
-    const auto longest = static_cast<std::size_t>(
-        std::max_element(capsule.half.begin(), capsule.half.end()) - capsule.half.begin());
-    const Vec3 along = capsule.half[longest] * capsule.axis[longest];
-    return {capsule.centre - along, capsule.centre + along};
-}
-
 /// The box of a body that is a plain box, in the body's frame, whose axes are the box's.
 Box3 own_box(const RoundedBox& box) {
     const Vec3 half{box.half[0], box.half[1], box.half[2]};

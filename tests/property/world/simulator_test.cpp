@@ -250,6 +250,53 @@ TEST(Simulator, AStackThatIsNotLetToSleepStandsToo) {
     EXPECT_LT(length(stage.simulator.bodies().back().position - settled), 1e-3);
 }
 
+/// Bodies on a ground come to rest and stay there, without being put to sleep.
+void expect_rest(Simulator& simulator) {
+    for (int step = 0; step < 300; ++step)
+        simulator.step(kStep);
+    std::vector<Vec3> settled;
+    for (const Body& body : simulator.bodies())
+        settled.push_back(body.position);
+    for (int step = 0; step < 300; ++step)
+        simulator.step(kStep);
+    for (std::size_t i = 0; i < settled.size(); ++i) {
+        const Body& body = simulator.bodies()[i];
+        EXPECT_LT(length(body.velocity), 0.01) << "body " << i;
+        EXPECT_LT(length(body.position - settled[i]), 1e-3) << "body " << i;
+    }
+}
+
+TEST(Simulator, APyramidOfBoxesRestsOnAHalfSpace) {
+    for (const bool as_mesh : {false, true}) {
+        SCOPED_TRACE(as_mesh);
+        Simulator simulator({.sleep = false});
+        simulator.add(HalfSpace{{0, 0, 1}, 0}, {}, {.density = 0});
+        const Box3 box{{-0.25, -0.25, -0.25}, {0.25, 0.25, 0.25}};
+        for (int row = 0; row < 4; ++row)
+            for (int i = 0; i < 4 - row; ++i) {
+                const Pose pose{{0.55 * i + 0.275 * row, 0, 0.25 + 0.5 * row}, {1, 0, 0, 0}};
+                if (as_mesh && row == 0)
+                    simulator.add(Model(box_mesh(box.lower, box.upper)), pose);
+                else
+                    simulator.add(box, pose);
+            }
+        expect_rest(simulator);
+    }
+}
+
+TEST(Simulator, CapsulesRestOnAFlatMesh) {
+    Simulator simulator({.sleep = false});
+    simulator.add(Model(grid_mesh(40, 40, false, false,
+                                  [](double u, double v) {
+                                      return Vec3{20 * u - 10, 20 * v - 10, 0};
+                                  })),
+                  {}, {.density = 0});
+    for (int i = 0; i < 5; ++i)
+        simulator.add(Capsule{{{-0.4, 0, 0}, {0.4, 0, 0}}, 0.1},
+                      {{0.37 * i, 0.6 * i, 0.12}, {1, 0, 0, 0}}, {.rolling = 0.01});
+    expect_rest(simulator);
+}
+
 TEST(Simulator, FrictionHoldsABoxUpToItsAngle) {
     for (const double slope : {0.3, 0.45, 0.55, 0.8}) {
         // The floor is tilted: its frame is kept and gravity turns.

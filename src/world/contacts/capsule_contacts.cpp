@@ -1,0 +1,75 @@
+#include "world/contacts/capsule_contacts.h"
+
+#include "math/vector.h"
+#include "world/narrow_phase/core_gap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace abut {
+
+namespace {
+
+/// The contact of the ball at an end, along the capsule's normal; none if it leads another way.
+///
+/// In          normal: from the surface to the capsule.
+std::optional<ContactPoint> contact_of_end(const Model& surface,
+                                           const Transform& world_from_surface, const Sphere& end,
+                                           const Vec3& normal, double margin) {
+    constexpr double kSameWay = 0.9; // a cosine
+    BodyGap gap =
+        ball_gap(surface, world_from_surface, end, std::nextafter(margin, HUGE_VAL), Depths::no);
+    if (gap.distance > margin)
+        return std::nullopt;
+    if (gap.distance <= 0)
+        gap = ball_gap(surface, world_from_surface, end, HUGE_VAL, Depths::yes);
+    if (dot(gap.normal, normal) < kSameWay)
+        return std::nullopt;
+    ContactPoint point;
+    point.depth = -gap.distance;
+    point.point_b = end.centre - end.radius * normal;
+    point.point_a = point.point_b + point.depth * normal;
+    return point;
+}
+
+} // namespace
+
+void add_capsule_ends(const Model& surface, const Transform& world_from_surface,
+                      const Capsule& capsule, bool capsule_is_a, double margin,
+                      ContactManifold& manifold) {
+    constexpr double kAsDeep = 0x1p-20; // of the axis
+    constexpr double kApart = 0.125;    // of the axis
+    const ContactPoint deepest = manifold.points[0];
+    const Vec3 normal = capsule_is_a ? -manifold.normal : manifold.normal,
+               axis = capsule.axis.b - capsule.axis.a;
+    double depth_of_ends = -HUGE_VAL;
+    manifold.count = 0;
+    const auto add = [&](ContactPoint point, CapsulePoint name) {
+        point.feature = static_cast<std::uint64_t>(name);
+        manifold.points[manifold.count++] = point;
+    };
+    for (const auto& [centre, name] : {std::pair(capsule.axis.a, CapsulePoint::end_a),
+                                       std::pair(capsule.axis.b, CapsulePoint::end_b)})
+        if (auto point = contact_of_end(surface, world_from_surface, {centre, capsule.radius},
+                                        normal, margin)) {
+            if (capsule_is_a)
+                std::swap(point->point_a, point->point_b);
+            depth_of_ends = std::max(depth_of_ends, point->depth);
+            add(*point, name);
+        }
+    const auto along = [&](const ContactPoint& point) {
+        return dot((capsule_is_a ? point.point_a : point.point_b) - capsule.axis.a, axis) /
+               length_sq(axis);
+    };
+    const bool is_deeper = deepest.depth > depth_of_ends + kAsDeep * length(axis);
+    if (is_deeper || manifold.count == 0 ||
+        (manifold.count == 1 && std::abs(along(deepest) - along(manifold.points[0])) > kApart))
+        add(deepest, CapsulePoint::middle);
+    const auto first = manifold.points.begin();
+    std::stable_sort(
+        first, first + manifold.count,
+        [](const ContactPoint& p, const ContactPoint& q) { return p.depth > q.depth; });
+}
+
+} // namespace abut
