@@ -24,6 +24,14 @@ Box3 box_of(std::span<const Vec3> vertices) {
     return box;
 }
 
+/// A point of the hull, to rounding.
+Vec3 mean_of(std::span<const Vec3> vertices) {
+    Vec3 sum;
+    for (const Vec3& p : vertices)
+        sum = sum + (p - vertices.front());
+    return vertices.empty() ? Vec3{} : vertices.front() + (1.0 / double(vertices.size())) * sum;
+}
+
 /// The planes relative to the middle of the box, so that rounding depends on its size alone. Empty
 /// if a triangle has no area to rounding.
 std::vector<Plane> planes_of(std::span<const Vec3> vertices,
@@ -71,7 +79,7 @@ InnerBall inner_ball(std::span<const Vec3> vertices, std::span<const IndexTriang
     }
     // Allow for rounding of the middle and of a length.
     best.radius = best.radius * (1 - 0x1p-40) - 0x1p-48 * (max_abs(best.middle) + size);
-    return best.radius > 0 ? best : InnerBall{middle, 0};
+    return best.radius > 0 ? best : InnerBall{mean_of(vertices), 0};
 }
 
 } // namespace abut

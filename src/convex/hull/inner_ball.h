@@ -8,14 +8,14 @@
 namespace abut {
 
 struct InnerBall {
-    Vec3 middle;
+    Vec3 middle;       ///< in the hull, to rounding
     double radius = 0; ///< proven: the hull holds all points that are nearer to the middle
 };
 
 /// A ball inside a hull, not much smaller than the largest.
 ///
 /// In          an exact hull of points that are all vertices: counter-clockwise triangles.
-/// Degenerate  radius 0 and the middle of the box, if the hull has no volume, or if it or its
+/// Degenerate  radius 0 and the mean of the vertices, if the hull has no volume, or if it or its
 ///             triangles are so thin that rounding hides their planes.
 /// Cost        some dozen passes over all planes.
 /// Source      subgradient steps towards the Chebyshev centre: away from the nearest plane, by

@@ -8,6 +8,7 @@
 #include "convex/convex_query.h"
 #include "convex/search/gjk.h"
 #include "math/predicates.h"
+#include "math/transform.h"
 #include "tests/support/rounds.h"
 #include "tests/support/shapes.h"
 
@@ -361,6 +362,34 @@ TEST(SimplexSearch, AgreesWithTheWalk) {
     }
     EXPECT_GT(apart, many(1500) / 5);
     EXPECT_GT(meet, many(1500) / 10);
+}
+
+/// A flat body is no nearer than its triangles: the middle of its box lies in none of them.
+TEST(ConvexDistance, OfFlatBodiesIsThatOfTheirTriangles) {
+    Random random(7301);
+    const Convex block(box_mesh({-0.5, -0.75, -1}, {0.5, 0.75, 1}).positions);
+    const Model surface(block.mesh());
+    int near = 0;
+    for (int i = 0; i < many(1500); ++i) {
+        const double s = random.uniform(0.1, 2);
+        const std::vector<Vec3> corners =
+            random.chance(0.5)
+                ? std::vector<Vec3>{{s, 0, 0}, {0, s, 0}, {0, 0, s}}
+                : std::vector<Vec3>{random.in_cube(1), random.in_cube(1), random.in_cube(1)};
+        const Transform world = random.pose(0.8);
+        const double found = distance(Convex(corners), {}, block, world).distance,
+                     truth =
+                         distance(Model(Mesh{corners, {{0, 1, 2}}}), {}, surface, world).distance;
+        if (truth == 0) // or inside
+            continue;
+        const bool is_inside = [&] {
+            const Vec3 p = apply(inverse(world), corners[0]);
+            return std::abs(p.x) < 0.5 && std::abs(p.y) < 0.75 && std::abs(p.z) < 1;
+        }();
+        EXPECT_NEAR(found, is_inside ? 0 : truth, 1e-12) << i;
+        near += !is_inside && truth < 0.3 ? 1 : 0;
+    }
+    EXPECT_GT(near, many(1500) / 20);
 }
 
 } // namespace
