@@ -84,14 +84,16 @@ Gap signed_gap(const Model& a, const Transform& world_from_a, const Model& b,
         return undecided(placed_a, placed_b, contacts, apart.upper_bound, {}, steps, counters);
     const bool contained = contacts.empty() && (any_component_inside(placed_a, placed_b) ||
                                                 any_component_inside(placed_b, placed_a));
-    if (contacts.empty() && !contained) {
+    const auto distance_of_surfaces = [&] {
         DistanceOptions rest = apart;
         if (apart.max_steps)
-            rest.max_steps = *apart.max_steps - steps.count();
+            rest.max_steps = *apart.max_steps - std::min(*apart.max_steps, steps.count());
         Gap gap = distance(pair, rest);
         gap.steps += steps.count();
         return gap;
-    }
+    };
+    if (contacts.empty() && !contained)
+        return distance_of_surfaces();
 
     Gap gap;
     LocalPenetration p;
@@ -104,6 +106,13 @@ Gap signed_gap(const Model& a, const Transform& world_from_a, const Model& b,
     }
     if (steps.ran_out())
         return undecided(placed_a, placed_b, contacts, 0, p, steps, counters);
+    if (p.depth == 0 && contacts.empty()) {
+        // One lies inside the other one, less deep than rounding: the surfaces' nearest points tell where.
+        gap = distance_of_surfaces();
+        gap.distance = 0;
+        gap.at_least = -(p.at_most + p.rounding);
+        return gap;
+    }
     gap = p.depth > 0 ? minus_depth(p) : common_point(placed_a, placed_b, contacts.front().pair);
     gap.steps = steps.count();
     gap.counters = counters;

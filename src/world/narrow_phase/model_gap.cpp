@@ -60,13 +60,17 @@ BodyGap model_gap(const Model& a, const Transform& world_from_a, const Model& b,
     Vec3 direction = without_rounding(way, error, a, world_from_a, found.triangle_a);
     if (direction == normalized_or_zero(way))
         direction = without_rounding(way, error, b, world_from_b, found.triangle_b);
-    BodyGap gap = from_rigid(found, direction);
+    // The depth of open surfaces is told at one common point.
+    const bool at_one_point = length(between) < 0.5 * -found.distance;
+    BodyGap gap = from_rigid(found, at_one_point ? Vec3{} : direction);
     const bool has_points = found.distance <= options.upper_bound;
     if (has_points && (found.distance > 0 || depths == Depths::yes))
         if (const auto normal =
                 direction_of_touching(a, world_from_a, b, world_from_b, found.point_a,
                                       found.point_b, way, std::abs(found.distance)))
             gap.normal = *normal;
+    if (at_one_point && gap.normal != Vec3{})
+        gap.point_b = gap.point_a + gap.distance * gap.normal;
     // The depth of a point in a solid is a bound of the length of a separating motion, however
     // exact it is.
     if (gap.distance < 0)

@@ -445,5 +445,34 @@ TEST_F(FlushModels, ACapsuleAlongAFaceOrAnEdgeHasOneNormalAndPlace) {
     EXPECT_GT(met, 500);
 }
 
+/// A small open surface in a face of a solid, over or under it by rounding.
+TEST(FlushPlates, AreInContact) {
+    Random random(5541);
+    int met = 0;
+    for (int i = 0; i < many(1500); ++i) {
+        const double x = random.uniform(0.05, 0.4), y = random.uniform(0.05, 0.4);
+        const Model plate(grid_mesh(2, 2, false, false, [&](double u, double v) {
+            return Vec3{x * (2 * u - 1), y * (2 * v - 1), 0};
+        }));
+        const Pose frame = random.pose(1);
+        const double height =
+            std::array{0.0, 1e-16, -1e-16, 1e-15, -1e-15}.at(std::size_t(random.integer(0, 4)));
+        World world;
+        world.add(plate, placed_in(frame, {random.uniform(-0.05, 0.05), 0, height}, {1, 0, 0, 0}));
+        if (random.chance(0.5))
+            world.add(Box3{{-0.5, -0.5, -1}, {0.5, 0.5, 0}}, frame);
+        else
+            world.add(Convex(box_mesh({-0.5, -0.5, -1}, {0.5, 0.5, 0}).positions), frame);
+        const std::vector<BodyGap> near = world.within(0.1);
+        ASSERT_EQ(near.size(), 1U) << i;
+        EXPECT_NEAR(near[0].distance, 0, 1e-13);
+        const std::vector<BodyGap> deep = world.penetration();
+        EXPECT_EQ(deep.size(), world.collide().size());
+        met += deep.empty() ? 0 : 1;
+        EXPECT_EQ(world.contact_manifolds().empty(), deep.empty()) << i;
+    }
+    EXPECT_GT(met, many(1500) / 10);
+}
+
 } // namespace
 } // namespace abut::test
