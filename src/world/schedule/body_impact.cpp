@@ -110,8 +110,13 @@ private:
     [[nodiscard]] Impact search(ImpactSteps& steps, std::uint64_t most_steps) const {
         double time = 0, tolerance = tolerance_;
         BodyGap gap = gap_at(0);
-        if (gap.distance <= 4 * error_ && parts_or_slides())
-            return miss();
+        if (gap.distance <= 4 * error_) {
+            time = free_from_start();
+            if (time == 1)
+                return miss();
+            if (time > 0)
+                gap = gap_at(time);
+        }
         while (steps.count() < most_steps) {
             if (!steps.take(time))
                 return out_of_steps(time);
@@ -154,16 +159,60 @@ private:
         return gap_between({a_.shape, world_a}, {b_.shape, world_b}, HUGE_VAL, depths, warm_start);
     }
 
-    /// Returns whether two convex bodies that meet at the start, to rounding, only touch there, and
-    /// nothing but rounding brings them nearer along the normal during the motion. The normal of so short
-    /// a gap may be wrong; then the planes across it do not separate the bodies.
-    [[nodiscard]] bool parts_or_slides() const {
+    /// The time up to which two convex bodies that touch at the start, to rounding, do not meet again: they
+    /// part, or nothing but rounding brings them nearer along the normal. 0 if that is not proven, or if
+    /// they overlap. The normal of so short a gap may be wrong; then the planes across it do not separate
+    /// the bodies.
+    [[nodiscard]] double free_from_start() const {
         if (!along_normal_)
-            return false;
+            return 0;
         const BodyGap touching = gap_at(0, Depths::yes);
-        return -touching.distance <= 4 * error_ && touching.normal != Vec3{} &&
-               gap_along_normal(0, touching) >= -4 * error_ &&
-               closing_speed(touching) <= 2 * kRounding * scale_;
+        if (-touching.distance > 4 * error_ || touching.normal == Vec3{} ||
+            gap_along_normal(0, touching) < -4 * error_)
+            return 0;
+        if (closing_speed(touching) <= 2 * kRounding * scale_)
+            return 1;
+        const auto is_known = [](const MovingBody& body) {
+            return is_half_space(body.shape) || is_convex(body.shape);
+        };
+        if (!is_known(a_) || !is_known(b_)) // a half-space and a surface
+            return 0;
+        constexpr double kShortest = 0x1p-12;
+        double time = 1;
+        while (time >= kShortest &&
+               least_height_by(time, touching.normal) < -2 * kRounding * scale_)
+            time *= 0.5;
+        return time >= kShortest ? time : 0;
+    }
+
+    /// Bounds how far apart the planes across a direction that touch the bodies are at the end of a time,
+    /// divided by the share of the time: at each earlier time t, they are at least t / time of it apart, but
+    /// for what they are at the start.
+    ///
+    /// Source      a point at r from the centre is as high as n . (r + t w x r), less at most
+    ///             t^2 |w|^2 |r| / 2. The lowest of points that move along lines is a concave function
+    ///             of time: it lies over its chord.
+    [[nodiscard]] double least_height_by(double time, const Vec3& n) const {
+        const auto turned_off = [&](const MovingBody& body, double swing) {
+            return 0.5 * time * time * length_sq(body.motion.angular_velocity) * swing;
+        };
+        const Vec3 from = a_.motion.centre;
+        return -highest_by(b_, -n, time, from) - highest_by(a_, n, time, from) -
+               turned_off(a_, swing_a_) - turned_off(b_, swing_b_);
+    }
+    /// The height along a direction that a body's points reach if they move as they do at the start.
+    [[nodiscard]] static double highest_by(const MovingBody& body, const Vec3& n, double time,
+                                           const Vec3& from) {
+        const Motion& motion = body.motion;
+        const Transform world = at(motion, 0);
+        const double moved = time * dot(n, motion.velocity);
+        const auto solid = support_of(PlacedBody{body.shape, world});
+        if (!solid)
+            return moved + dot(n, placed(std::get<PlaneShape>(body.shape), world).point - from);
+        // n . (w x r) = (n x w) . r
+        const Vec3 turned = time * cross(n, motion.angular_velocity),
+                   top = solid->centre + farthest(*solid, n + turned);
+        return moved + dot(n, top - from) + dot(turned, top - motion.centre) + solid->radius;
     }
 
     /// Upper bound of the speed at which points of the two bodies approach each other.
