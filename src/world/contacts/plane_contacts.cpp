@@ -1,6 +1,7 @@
 #include "world/contacts/plane_contacts.h"
 
 #include <algorithm>
+#include <array>
 
 namespace abut {
 
@@ -23,9 +24,11 @@ ContactFace corners_over_plane(const PlacedModel& surface, const PlaneShape& pla
         return std::array{c.at.x, c.at.y, c.at.z, double(c.vertex)};
     };
     std::ranges::sort(face.corners, {}, order);
-    const auto repeated =
-        std::ranges::unique(face.corners, {}, [](const ContactFace::Corner& c) { return c.at; });
-    face.corners.erase(repeated.begin(), repeated.end());
+    face.corners.erase(std::unique(face.corners.begin(), face.corners.end(),
+                                   [](const ContactFace::Corner& p, const ContactFace::Corner& q) {
+                                       return p.at == q.at;
+                                   }),
+                       face.corners.end());
     std::ranges::sort(face.corners, {}, &ContactFace::Corner::vertex);
     return face;
 }

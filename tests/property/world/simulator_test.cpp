@@ -9,6 +9,7 @@
 #include "tests/support/paths.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
+#include "tests/support/shapes.h"
 
 #include <algorithm>
 #include <filesystem>
