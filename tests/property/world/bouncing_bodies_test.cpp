@@ -85,7 +85,7 @@ TEST(BouncingBodies, AreFreeUntilTheyMeetTheFloorAgain) {
     }
     std::cout << free << " free, of which " << stopped << " were stopped; " << meet << " meet\n";
     EXPECT_GT(free, many(400) / 10);
-    EXPECT_GT(meet, many(400) / 10);
+    EXPECT_GT(meet, many(400) / 40);
     EXPECT_LE(stopped, free / 20);
 }
 
