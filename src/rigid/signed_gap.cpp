@@ -84,8 +84,9 @@ Gap signed_gap(const Model& a, const Transform& world_from_a, const Model& b,
         return undecided(placed_a, placed_b, contacts, apart.upper_bound, {}, steps, counters);
     const bool contained = contacts.empty() && (any_component_inside(placed_a, placed_b) ||
                                                 any_component_inside(placed_b, placed_a));
-    const auto distance_of_surfaces = [&] {
+    const auto distance_of_surfaces = [&](double upper_bound) {
         DistanceOptions rest = apart;
+        rest.upper_bound = upper_bound;
         if (apart.max_steps)
             rest.max_steps = *apart.max_steps - std::min(*apart.max_steps, steps.count());
         Gap gap = distance(pair, rest);
@@ -93,7 +94,7 @@ Gap signed_gap(const Model& a, const Transform& world_from_a, const Model& b,
         return gap;
     };
     if (contacts.empty() && !contained)
-        return distance_of_surfaces();
+        return distance_of_surfaces(apart.upper_bound);
 
     Gap gap;
     LocalPenetration p;
@@ -107,10 +108,12 @@ Gap signed_gap(const Model& a, const Transform& world_from_a, const Model& b,
     if (steps.ran_out())
         return undecided(placed_a, placed_b, contacts, 0, p, steps, counters);
     if (p.depth == 0 && contacts.empty()) {
-        // One lies inside the other one, less deep than rounding: the surfaces' nearest points tell where.
-        gap = distance_of_surfaces();
+        // One lies inside the other one, less deep than rounding. The nearest points tell where.
+        gap = distance_of_surfaces(HUGE_VAL);
         gap.distance = 0;
         gap.at_least = -(p.at_most + p.rounding);
+        if (p.at_most > 0)
+            gap.status = Status::bound_only;
         return gap;
     }
     gap = p.depth > 0 ? minus_depth(p) : common_point(placed_a, placed_b, contacts.front().pair);
