@@ -85,7 +85,7 @@ void append_one_point(const PlacedBody& a, const PlacedBody& b, double margin,
     // Witness points without a direction are one point.
     const Vec3 point_b =
         gap.normal == Vec3{} ? gap.point_a + gap.distance * manifold.normal : gap.point_b;
-    // One point keeps its name, wherever it goes.
+    // The name of the only point stays the same from triangle to triangle.
     manifold.points[0] = {gap.point_a, point_b, -gap.distance, 0};
     manifold.status = gap.status;
 }
@@ -184,7 +184,8 @@ void add_capsule_points(const PlacedBody& a, const PlacedBody& b, double margin,
     const auto triangles = triangles_of(ground.shape);
     add_capsule_ends(triangles->surface,
                      compose(ground.world_from_body, triangles->body_from_surface),
-                     {axis_of(solid), solid.radius}, capsule_is_a, margin, manifold);
+                     {axis_of(solid), solid.radius}, capsule_is_a,
+                     {margin, 2 * contact_rounding(a, b)}, manifold);
 }
 
 /// Whether two bodies are at most the margin apart, as the other queries of a world tell it.

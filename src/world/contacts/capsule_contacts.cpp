@@ -11,23 +11,25 @@ namespace abut {
 
 namespace {
 
-/// The contact of the ball at an end, along the capsule's normal; none if it leads another way.
+/// The contact of the ball at an end, along the capsule's normal; none if the ball's own normal leads
+/// another way.
 ///
 /// In          normal: from the surface to the capsule.
 std::optional<ContactPoint> contact_of_end(const Model& surface,
                                            const Transform& world_from_surface, const Sphere& end,
-                                           const Vec3& normal, double margin) {
-    constexpr double kSameWay = 0.9; // a cosine
+                                           const Vec3& normal, const ContactLimits& limits) {
+    constexpr double kSameWay = 0.9; // the cosine of 26 degrees
+    const double farthest = limits.margin + limits.rounding;
     BodyGap gap =
-        ball_gap(surface, world_from_surface, end, std::nextafter(margin, HUGE_VAL), Depths::no);
-    if (gap.distance > margin)
+        ball_gap(surface, world_from_surface, end, std::nextafter(farthest, HUGE_VAL), Depths::no);
+    if (gap.distance > farthest)
         return std::nullopt;
     if (gap.distance <= 0)
         gap = ball_gap(surface, world_from_surface, end, HUGE_VAL, Depths::yes);
     if (dot(gap.normal, normal) < kSameWay)
         return std::nullopt;
     ContactPoint point;
-    point.depth = -gap.distance;
+    point.depth = std::max(-gap.distance, -limits.margin);
     point.point_b = end.centre - end.radius * normal;
     point.point_a = point.point_b + point.depth * normal;
     return point;
@@ -36,10 +38,12 @@ std::optional<ContactPoint> contact_of_end(const Model& surface,
 } // namespace
 
 void add_capsule_ends(const Model& surface, const Transform& world_from_surface,
-                      const Capsule& capsule, bool capsule_is_a, double margin,
+                      const Capsule& capsule, bool capsule_is_a, const ContactLimits& limits,
                       ContactManifold& manifold) {
-    constexpr double kAsDeep = 0x1p-20; // of the axis
-    constexpr double kApart = 0.125;    // of the axis
+    // Parts of the axis' length. A point that is deeper by less is one of a line that lies flat, whose place
+    // rounding decides.
+    constexpr double kAsDeep = 0x1p-20;
+    constexpr double kApart = 0.125;
     const ContactPoint deepest = manifold.points[0];
     const Vec3 normal = capsule_is_a ? -manifold.normal : manifold.normal,
                axis = capsule.axis.b - capsule.axis.a;
@@ -52,7 +56,7 @@ void add_capsule_ends(const Model& surface, const Transform& world_from_surface,
     for (const auto& [centre, name] : {std::pair(capsule.axis.a, CapsulePoint::end_a),
                                        std::pair(capsule.axis.b, CapsulePoint::end_b)})
         if (auto point = contact_of_end(surface, world_from_surface, {centre, capsule.radius},
-                                        normal, margin)) {
+                                        normal, limits)) {
             if (capsule_is_a)
                 std::swap(point->point_a, point->point_b);
             depth_of_ends = std::max(depth_of_ends, point->depth);

@@ -13,7 +13,8 @@ namespace abut {
 
 namespace {
 
-/// Of the difference of two points, relative to their coordinates.
+/// Bounds the rounding of the difference of two points, relative to the sum of their coordinates and of
+/// those of the places of their bodies.
 constexpr double kRoundingOfWay = 0x1p-49;
 
 BodyGap from_rigid(const Gap& gap, const Vec3& normal) {
@@ -22,12 +23,13 @@ BodyGap from_rigid(const Gap& gap, const Vec3& normal) {
             gap.status};
 }
 
-/// The normal of a triangle of a model, where a way is that but for rounding. Else the way's direction.
+/// Returns the normal of a triangle if the direction of a way differs from it by no more than the way's
+/// rounding explains. Otherwise returns the way's direction.
 ///
 /// In          error: bounds the rounding of the way.
 Vec3 without_rounding(const Vec3& way, double error, const Model& model, const Transform& world,
                       std::uint32_t triangle) {
-    constexpr double kMostTurned = 0x1p-5;
+    constexpr double kMostTurned = 0x1p-5; // radians; a way shorter than its rounding tells nothing
     const Vec3 direction = normalized_or_zero(way);
     const Mesh& mesh = model.mesh();
     if (direction == Vec3{} || triangle >= mesh.triangles.size())

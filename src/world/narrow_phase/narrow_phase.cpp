@@ -180,7 +180,8 @@ BodyGap measure(const PlacedSurface& a, const PlacedConvex& b, double upper_boun
     // A surface in the solid may be far from its faces, but is in contact.
     if (gap.distance > 0 && meet(a, b, warm_start))
         set_touching(gap, kClearOfFaces * (sum_of_sizes(gap.point_b) + b.shape.solid.data().reach));
-    part_from_open(gap, a.shape, a.world, support_of(b), depths);
+    if (is_in_open(gap, a.shape, depths))
+        part_from_surface(gap, PlacedModel(a.shape, a.world), support_of(b));
     return gap;
 }
 
@@ -250,7 +251,8 @@ BodyGap measure(const PlacedSurface& a, const PlacedRounded& b, double upper_bou
         if (gap.distance > 0 &&
             (gap.distance > clear ? any_component_inside(a, solid) : meet(a, b, warm_start)))
             set_touching(gap, clear);
-        part_from_open(gap, a.shape, a.world, support_of(b), depths);
+        if (is_in_open(gap, a.shape, depths))
+            part_from_surface(gap, PlacedModel(a.shape, a.world), support_of(b));
         return gap;
     }
 }

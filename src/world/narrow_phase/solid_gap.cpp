@@ -166,6 +166,7 @@ bool surface_meets(const Model& model, const Transform& world_from_model, const 
 }
 
 void part_from_surface(BodyGap& gap, const PlacedModel& model, const SupportShape& solid) {
+    // Some roundings of a place in the world, and of one on the model.
     const double touching =
         0x1p-45 * (max_abs(solid.centre) + solid.reach + solid.radius + model.reach());
     if (gap.distance > touching)
@@ -182,10 +183,8 @@ void part_from_surface(BodyGap& gap, const PlacedModel& model, const SupportShap
     gap.status = Status::bound_only;
 }
 
-void part_from_open(BodyGap& gap, const Model& model, const Transform& world_from_model,
-                    const SupportShape& solid, Depths depths) {
-    if (depths == Depths::yes && gap.distance <= 0 && !model.data().solid().closed)
-        part_from_surface(gap, PlacedModel(model, world_from_model), solid);
+bool is_in_open(const BodyGap& gap, const Model& model, Depths depths) {
+    return depths == Depths::yes && gap.distance <= 0 && !model.data().solid().closed;
 }
 
 BodyGap surface_gap(const Model& model, const Transform& world_from_model,

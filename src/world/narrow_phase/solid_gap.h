@@ -32,14 +32,13 @@ bool surface_meets(const Model& model, const Transform& world_from_model, const 
 /// triangle that is deep in the solid (bound_only).
 BodyGap surface_gap(const Model& model, const Transform& world_from_model,
                     const SupportShape& solid, double upper_bound, Depths depths);
-/// Makes the depth of a solid in a surface that it meets the length of a motion that parts them, at least
-/// from the triangles that it meets, and its normal the way (parting_motion.h). A gap of rounding size
-/// gets such a normal, too.
+/// Replaces the depth of a solid in a surface by the length of a motion that parts the solid from all
+/// triangles that it meets, and the normal by its direction, if such a motion is found (parting_motion.h).
+/// A gap of rounding size gets such a normal, too.
 void part_from_surface(BodyGap& gap, const PlacedModel& model, const SupportShape& solid);
-/// The same, if depths are asked and the surface is open: it has no inside, so the depth of a solid in it
-/// is how far that must move.
-void part_from_open(BodyGap& gap, const Model& model, const Transform& world_from_model,
-                    const SupportShape& solid, Depths depths);
+/// Returns whether a depth was asked for and is that in an open surface. This has no inside, so the depth
+/// of a solid in it is how far that must move: part_from_surface tells.
+bool is_in_open(const BodyGap& gap, const Model& model, Depths depths);
 /// The gap of a model's surface and a half-space: that of the lowest vertex.
 BodyGap surface_gap(const Model& model, const Transform& world_from_model, const PlaneShape& plane);
 

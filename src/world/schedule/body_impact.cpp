@@ -177,22 +177,20 @@ private:
         };
         if (!is_known(a_) || !is_known(b_)) // a half-space and a surface
             return 0;
-        constexpr double kShortest = 0x1p-12;
+        constexpr double kShortest = 0x1p-12; // of the step; bodies that part more slowly touch
         double time = 1;
-        while (time >= kShortest &&
-               least_height_by(time, touching.normal) < -2 * kRounding * scale_)
+        while (time >= kShortest && least_room_by(time, touching.normal) < -2 * kRounding * scale_)
             time *= 0.5;
         return time >= kShortest ? time : 0;
     }
 
-    /// Bounds how far apart the planes across a direction that touch the bodies are at the end of a time,
-    /// divided by the share of the time: at each earlier time t, they are at least t / time of it apart, but
-    /// for what they are at the start.
+    /// A lower bound h of the room between the bodies along a direction n at the end of a time T. If the
+    /// room at the start is g, that at each earlier time t is at least (1 - t / T) g + (t / T) h.
     ///
-    /// Source      a point at r from the centre is as high as n . (r + t w x r), less at most
-    ///             t^2 |w|^2 |r| / 2. The lowest of points that move along lines is a concave function
-    ///             of time: it lies over its chord.
-    [[nodiscard]] double least_height_by(double time, const Vec3& n) const {
+    /// Source      a point at r from the centre of a body that turns by w t is n . (r + t w x r) high, give
+    ///             or take t^2 |w|^2 |r| / 2. Without the last term, points move along lines. The height of
+    ///             the lowest of them is then a concave function of time, and lies over its chord.
+    [[nodiscard]] double least_room_by(double time, const Vec3& n) const {
         const auto turned_off = [&](const MovingBody& body, double swing) {
             return 0.5 * time * time * length_sq(body.motion.angular_velocity) * swing;
         };
