@@ -70,7 +70,7 @@ void replace(LocalPenetration& depth, const LocalPenetration& larger) {
 void deepen(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts,
             double touch, LocalPenetration& depth) {
     constexpr double kPartOfTouch = 0x1p-7, kPartOfSize = 0x1p-23;
-    constexpr std::uint32_t kPieces = 4096;
+    constexpr std::uint32_t kPieces = 4096; // 20,000 take a quarter of a hospital's time
     const double size = std::min(a.world_size(), b.world_size()),
                  least = touch > 0 ? kPartOfTouch * touch : kPartOfSize * size;
     const std::vector<Vec3> directions = likely_directions(a, b, contacts);

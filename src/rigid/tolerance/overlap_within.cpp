@@ -84,7 +84,7 @@ std::vector<CuttingPlane> bounds_of_depth(const WorldSolid& solid, std::span<con
 /// Searches for the deepest point of a surface in a solid, deeper than a limit.
 SolidDepth deepest_of(const WorldSolid& surface, const WorldSolid& solid, double limit,
                       double rounding, const ToleranceSearch& options) {
-    constexpr double kRaise = 0x1p-20;
+    constexpr double kRaise = 0x1p-20; // docs/decisions/0003 measures others
     ReachSearch search(solid, {.limit = limit,
                                .raise = kRaise,
                                .rounding = rounding,

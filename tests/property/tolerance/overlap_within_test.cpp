@@ -45,7 +45,9 @@ struct SampledDepth {
     double depth = 0, spacing = 0;
 };
 
-SampledDepth sampled_depth(const Body& surface, const Body& solid, int n) {
+/// In          depth_at: of a point, in the solid.
+template <typename Depth>
+SampledDepth sampled_depth(const Body& surface, int n, const Depth& depth_at) {
     SampledDepth result;
     const auto count = static_cast<std::uint32_t>(surface.model.mesh().triangles.size());
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -54,10 +56,14 @@ SampledDepth sampled_depth(const Body& surface, const Body& solid, int n) {
         result.spacing = std::max({result.spacing, length(u), length(v), length(u - v)});
         for (int j = 0; j <= n; ++j)
             for (int k = 0; j + k <= n; ++k)
-                result.depth = std::max(
-                    result.depth, depth_in_convex(t[0] + double(j) * u + double(k) * v, solid));
+                result.depth =
+                    std::max(result.depth, depth_at(t[0] + double(j) * u + double(k) * v));
     }
     return result;
+}
+
+SampledDepth sampled_depth_in_convex(const Body& surface, const Body& solid, int n) {
+    return sampled_depth(surface, n, [&](const Vec3& p) { return depth_in_convex(p, solid); });
 }
 
 TEST(OverlapWithin, DepthsOfConvexSolidsAgainstSamples) {
@@ -75,7 +81,8 @@ TEST(OverlapWithin, DepthsOfConvexSolidsAgainstSamples) {
         Pose other = random.chance(0.5) ? random.pose(0) : pose;
         other.translation = shift + random.in_cube(1);
         const Body b(some_convex(random), other);
-        const SampledDepth in_b = sampled_depth(a, b, 24), in_a = sampled_depth(b, a, 24);
+        const SampledDepth in_b = sampled_depth_in_convex(a, b, 24),
+                           in_a = sampled_depth_in_convex(b, a, 24);
         const double depth = std::max(in_b.depth, in_a.depth),
                      spacing = std::max(in_b.spacing, in_a.spacing);
         if (!(depth > 1e-3))
@@ -197,23 +204,10 @@ TEST(OverlapWithin, SolidDepthOfConvexSolidsIsExact) {
     EXPECT_GT(proven, 0.95 * deep);
 }
 
-/// The largest depth of points on a grid of a surface's faces in any solid.
 SampledDepth sampled_depth_in(const Body& surface, const Body& solid, int n) {
-    SampledDepth result;
-    const auto count = static_cast<std::uint32_t>(surface.model.mesh().triangles.size());
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const Triangle t = surface.placed.world_triangle(i);
-        const Vec3 u = (1.0 / n) * (t[1] - t[0]), v = (1.0 / n) * (t[2] - t[0]);
-        result.spacing = std::max({result.spacing, length(u), length(v), length(u - v)});
-        for (int j = 0; j <= n; ++j)
-            for (int k = 0; j + k <= n; ++k) {
-                const Vec3 p = t[0] + double(j) * u + double(k) * v;
-                const double distance = solid.placed.nearest(p, 1e9).distance;
-                if (distance > result.depth && solid.placed.contains(p))
-                    result.depth = distance;
-            }
-    }
-    return result;
+    return sampled_depth(surface, n, [&](const Vec3& p) {
+        return solid.placed.contains(p) ? solid.placed.nearest(p, 1e9).distance : 0;
+    });
 }
 
 TEST(OverlapWithin, SolidDepthAgainstSamples) {
