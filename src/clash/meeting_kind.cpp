@@ -3,7 +3,7 @@
 #include "clash/blocks_pair.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "rigid/tolerance/overlap_within.h"
-#include "rigid/tolerance/point_order.h"
+#include "math/point_order.h"
 #include "rigid/tolerance/sheets_cross.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "rigid/penetration/overlap_volume.h"
 
 #include "core/stop.h"
+#include "math/point_order.h"
 #include "math/predicates.h"
 #include "rigid/penetration/overlap_crossing.h"
 #include "rigid/penetration/union_volume.h"
@@ -10,7 +11,6 @@
 #include <climits>
 #include <cmath>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -29,10 +29,6 @@ struct NearFace {
     Vec3 doubled_area;              ///< of the segments in the face, seen from corner 0
     bool is_flat = false;           ///< without area: it takes no part
 };
-
-bool is_before(const Vec3& a, const Vec3& b) {
-    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-}
 
 Box3 bounds_of(const Triangle& t) {
     return {min(t[0], min(t[1], t[2])), max(t[0], max(t[1], t[2]))};

@@ -1,6 +1,6 @@
 #include "rigid/tolerance/sheet.h"
 
-#include "rigid/tolerance/point_order.h"
+#include "math/point_order.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "rigid/tolerance/point_order.h"
+#include "math/point_order.h"
 #include "rigid/tolerance/reach_search.h"
 #include "rigid/tolerance/sheet.h"
 #include "rigid/tolerance/sheet_border.h"
