@@ -19,6 +19,8 @@ std::unique_ptr<btCollisionShape> bullet_shape(const ContactBody& body) {
     if (body.kind == ContactBody::Kind::capsule)
         return std::make_unique<btCapsuleShapeZ>(static_cast<btScalar>(body.radius),
                                                  static_cast<btScalar>(2 * body.half.z));
+    if (body.kind == ContactBody::Kind::ball)
+        return std::make_unique<btSphereShape>(static_cast<btScalar>(body.radius));
     auto hull = std::make_unique<btConvexHullShape>();
     for (const Vec3& point : body.points)
         hull->addPoint(to_bullet(point), false);
@@ -26,15 +28,40 @@ std::unique_ptr<btCollisionShape> bullet_shape(const ContactBody& body) {
     return hull;
 }
 
+/// A static mesh of Bullet and the arrays that it reads.
+struct BulletMesh {
+    explicit BulletMesh(const Mesh& mesh) {
+        for (const Vec3& p : mesh.positions)
+            vertices.push_back(to_bullet(p));
+        for (const auto& t : mesh.triangles)
+            for (const std::uint32_t v : t)
+                indices.push_back(static_cast<int>(v));
+        arrays = std::make_unique<btTriangleIndexVertexArray>(
+            static_cast<int>(mesh.triangles.size()), indices.data(), 3 * sizeof(int),
+            static_cast<int>(vertices.size()), &vertices[0].m_floats[0], sizeof(btVector3));
+    }
+    std::vector<btVector3> vertices;
+    std::vector<int> indices;
+    std::unique_ptr<btTriangleIndexVertexArray> arrays;
+};
+
 class BulletManifolds final : public ManifoldPeer {
 public:
-    explicit BulletManifolds(const std::vector<ContactBody>& bodies) {
+    BulletManifolds(const std::vector<ContactBody>& bodies, double margin) {
         world_.setForceUpdateAllAabbs(false);
         for (const ContactBody& body : bodies) {
-            shapes_.push_back(bullet_shape(body));
+            if (body.kind == ContactBody::Kind::mesh) {
+                meshes_.push_back(std::make_unique<BulletMesh>(body.mesh));
+                shapes_.push_back(
+                    std::make_unique<btBvhTriangleMeshShape>(meshes_.back()->arrays.get(), true));
+            } else {
+                shapes_.push_back(bullet_shape(body));
+            }
             objects_.push_back(std::make_unique<btCollisionObject>());
             btCollisionObject& object = *objects_.back();
             object.setCollisionShape(shapes_.back().get());
+            if (margin != kOwnMargin)
+                object.setContactProcessingThreshold(static_cast<btScalar>(margin));
             if (body.is_static)
                 object.setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
             else
@@ -78,19 +105,22 @@ private:
     btCollisionDispatcher dispatcher_{&configuration_};
     btDbvtBroadphase broad_phase_;
     btCollisionWorld world_{&dispatcher_, &broad_phase_, &configuration_};
+    std::vector<std::unique_ptr<BulletMesh>> meshes_;
     std::vector<std::unique_ptr<btCollisionShape>> shapes_;
     std::vector<std::unique_ptr<btCollisionObject>> objects_;
 };
 
 } // namespace
 
-std::unique_ptr<ManifoldPeer> make_bullet_manifolds(const std::vector<ContactBody>& bodies) {
-    return std::make_unique<BulletManifolds>(bodies);
+std::unique_ptr<ManifoldPeer> make_bullet_manifolds(const std::vector<ContactBody>& bodies,
+                                                    double margin) {
+    return std::make_unique<BulletManifolds>(bodies, margin);
 }
 
 #else
 
-std::unique_ptr<ManifoldPeer> make_bullet_manifolds(const std::vector<ContactBody>& /*bodies*/) {
+std::unique_ptr<ManifoldPeer> make_bullet_manifolds(const std::vector<ContactBody>& /*bodies*/,
+                                                    double /*margin*/) {
     return {};
 }
 

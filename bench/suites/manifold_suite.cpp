@@ -6,11 +6,13 @@
 #include "suite.h"
 #include "suites/mesh_world_rows.h"
 
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <memory>
 #include <random>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -79,6 +81,30 @@ public:
         }
         return scene;
     }
+    /// Bodies that lie on a flat floor of triangles, 1 mm in it, clear of each other.
+    ContactScene on_mesh(const std::string& name, const ContactBody& body, double lowest,
+                         double cell) {
+        constexpr double kSpacing = 2;
+        ContactScene scene{fmt::format("{} on a mesh of {} m cells", name, cell), {}, {}};
+        const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(count_)));
+        ContactBody floor;
+        floor.kind = ContactBody::Kind::mesh, floor.is_static = true;
+        floor.mesh = flat_mesh(kSpacing * static_cast<double>(side + 1), cell);
+        scene.bodies.push_back(floor);
+        scene.poses.push_back({});
+        for (std::size_t i = 0; i < count_; ++i) {
+            const double turn = draw(0, 3.141592653589793), c = std::cos(turn), s = std::sin(turn);
+            const double half = std::sqrt(0.5); // capsules lie: they are turned about y, too
+            scene.bodies.push_back(body);
+            scene.poses.push_back(
+                {{kSpacing * static_cast<double>(1 + i % side) + draw(-0.5, 0.5),
+                  kSpacing * static_cast<double>(1 + i / side) + draw(-0.5, 0.5), -lowest - 1e-3},
+                 body.kind == ContactBody::Kind::capsule
+                     ? std::array<double, 4>{half * c, -half * s, half * c, half * s}
+                     : std::array<double, 4>{c, 0, 0, s}});
+        }
+        return scene;
+    }
     /// The next step's poses.
     void move(ContactScene& scene) {
         for (std::size_t i = 0; i < scene.poses.size(); ++i) {
@@ -93,6 +119,20 @@ public:
     }
 
 private:
+    static Mesh flat_mesh(double size, double cell) {
+        const auto cells = static_cast<std::uint32_t>(std::ceil(size / cell));
+        Mesh mesh;
+        for (std::uint32_t k = 0; k <= cells; ++k)
+            for (std::uint32_t i = 0; i <= cells; ++i)
+                mesh.positions.push_back({cell * i, cell * k, 0});
+        for (std::uint32_t k = 0; k < cells; ++k)
+            for (std::uint32_t i = 0; i < cells; ++i) {
+                const std::uint32_t v = k * (cells + 1) + i, w = v + cells + 1;
+                mesh.triangles.push_back({v, v + 1, w + 1});
+                mesh.triangles.push_back({v, w + 1, w});
+            }
+        return mesh;
+    }
     double draw(double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random_);
     }
@@ -112,16 +152,21 @@ BodyId add_to(World& world, const ContactBody& body, const Pose& pose) {
         return world.add(Box3{{-half.x, -half.y, -half.z}, half}, pose, options);
     if (body.kind == ContactBody::Kind::capsule)
         return world.add(Capsule{{{0, 0, -half.z}, {0, 0, half.z}}, body.radius}, pose, options);
+    if (body.kind == ContactBody::Kind::ball)
+        return world.add(Sphere{{}, body.radius}, pose, options);
+    if (body.kind == ContactBody::Kind::mesh)
+        return world.add(Model(body.mesh), pose, options);
     return world.add(Convex(body.points), pose, options);
 }
 
-Row measure_scene(ContactScene scene, SceneMaker& maker, const ManifoldSuiteOptions& options) {
+Row measure_scene(ContactScene scene, SceneMaker& maker, const ManifoldSuiteOptions& options,
+                  double margin = kMargin, double peer_margin = kOwnMargin) {
     set_threads(1);
     World world;
     std::vector<BodyId> ids;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
         ids.push_back(add_to(world, scene.bodies[i], scene.poses[i]));
-    const auto peer = options.alone ? nullptr : make_bullet_manifolds(scene.bodies);
+    const auto peer = options.alone ? nullptr : make_bullet_manifolds(scene.bodies, peer_margin);
     std::vector<double> ours, theirs;
     std::size_t pairs = 0, points = 0, peer_points = 0;
     for (int step = -3; step < options.steps; ++step) { // three steps to warm up
@@ -129,7 +174,7 @@ Row measure_scene(ContactScene scene, SceneMaker& maker, const ManifoldSuiteOpti
         const double start = thread_seconds();
         for (std::size_t i = 0; i < ids.size(); ++i)
             world.move(ids[i], scene.poses[i]);
-        const auto manifolds = world.contact_manifolds(kMargin);
+        const auto manifolds = world.contact_manifolds(margin);
         const double middle = thread_seconds();
         if (peer)
             peer_points = peer->step(scene.poses);
@@ -157,6 +202,31 @@ Row measure_scene(ContactScene scene, SceneMaker& maker, const ManifoldSuiteOpti
     return row;
 }
 
+/// Adds rows of bodies of each kind on floors of triangles, with and without a margin.
+void add_floor_rows(Report& report, SceneMaker& maker, const ManifoldSuiteOptions& options) {
+    constexpr double kFloorMargin = 0.01;
+    ContactBody box, hull, capsule, ball;
+    box.half = {0.5, 0.5, 0.5};
+    hull.kind = ContactBody::Kind::hull;
+    for (int k = 0; k < 12; ++k) // a prism of twelve sides
+        for (const double z : {-0.4, 0.4})
+            hull.points.push_back({0.5 * std::cos(0.5235987755982988 * k),
+                                   0.5 * std::sin(0.5235987755982988 * k), z});
+    capsule.kind = ContactBody::Kind::capsule, capsule.half = {0, 0, 0.4}, capsule.radius = 0.1;
+    ball.kind = ContactBody::Kind::ball, ball.radius = 0.4;
+    for (const double cell : {1.0, 0.25})
+        for (const auto& [name, body, lowest] :
+             {std::tuple("boxes", box, -0.5), std::tuple("hulls", hull, -0.4),
+              std::tuple("capsules", capsule, -0.1), std::tuple("balls", ball, -0.4)})
+            for (const double margin : {0.0, kFloorMargin}) {
+                ContactScene scene = maker.on_mesh(name, body, lowest, cell);
+                scene.name += fmt::format(", margin {} m", margin);
+                if (scene.name.find(options.only) != std::string::npos)
+                    report.rows.push_back(
+                        measure_scene(std::move(scene), maker, options, margin, margin));
+            }
+}
+
 Report run_manifold_suite(const ManifoldSuiteOptions& options) {
     Report report;
     report.suite = "manifolds";
@@ -171,6 +241,7 @@ Report run_manifold_suite(const ManifoldSuiteOptions& options) {
     for (ContactScene& scene : scenes)
         if (scene.name.find(options.only) != std::string::npos)
             report.rows.push_back(measure_scene(std::move(scene), maker, options));
+    add_floor_rows(report, maker, options);
     if (std::string("meshes").find(options.only) != std::string::npos) {
         MeshWorldOptions meshes = options.meshes;
         meshes.bodies = options.bodies, meshes.alone = options.alone;
