@@ -268,13 +268,11 @@ std::vector<ContactManifold> World::contact_manifolds(double margin, const Progr
     if (margin > 0)
         near_pairs_->update(margin);
     auto& warm_starts = margin > 0 ? near_pairs_->warm_starts() : data_->warm_starts();
-    const std::uint64_t last = near_pairs_->exchange_last_placement(data_->last_placement());
     return all_results_of<ContactManifold>(
         progress, "contacts", margin > 0 ? near_pairs_->pairs() : data_->broad_phase().pairs(),
         [&](IndexPair pair, std::size_t k, std::vector<ContactManifold>& manifolds) {
-            const PlacementPair placements = data_->placements_of(pair);
             append_contacts({data_->placed(pair.a()), data_->placed(pair.b()), data_->ids_of(pair),
-                             placements, std::max(placements.a, placements.b) <= last},
+                             data_->placements_of(pair)},
                             margin, warm_starts[k], manifolds);
         });
 }

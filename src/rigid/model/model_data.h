@@ -5,6 +5,7 @@
 #include <abut/types.h>
 
 #include "math/transform.h"
+#include "rigid/model/convex_surface.h"
 #include "rigid/model/slot_copies.h"
 #include "rigid/model/solid.h"
 #include "rigid/model/solid_boundary.h"
@@ -77,6 +78,9 @@ public:
     [[nodiscard]] const std::vector<Box3>& tree_boxes() const { return tree_boxes_.of(*this); }
     /// Tells by slot which triangles are copies of others. The first call searches for them.
     [[nodiscard]] const std::vector<bool>& slot_copies() const { return slot_copies_.of(*this); }
+    /// The planes and corners, if the mesh is the surface of a convex solid with few faces; else null.
+    /// The first call examines it.
+    [[nodiscard]] const ConvexSurface* convex_surface() const { return convex_surface_.of(*this); }
     [[nodiscard]] std::size_t bytes() const;
 
 private:
@@ -100,6 +104,7 @@ private:
     LazyBoundary boundary_;
     LazyTreeBoxes tree_boxes_;
     LazySlotCopies slot_copies_;
+    LazyConvexSurface convex_surface_;
 };
 
 /// Upper bound on Model::bytes() for this many triangles and vertices, with the overhead of a

@@ -2,20 +2,26 @@
 
 #include "convex/body/convex_data.h"
 #include "convex/hull/placed_polytope.h"
+#include "geometry/triangle_triangle_distance.h"
 #include "math/transform.h"
 #include "math/vector.h"
+#include "rigid/manifold/region_names.h"
 #include "rigid/manifold/surface_manifolds.h"
 #include "world/contacts/capsule_contacts.h"
+#include "world/contacts/convex_faces.h"
 #include "world/contacts/plane_contacts.h"
 #include "world/contacts/solid_contacts.h"
+#include "world/contacts/solid_on_surface.h"
 #include "world/narrow_phase/contact_rounding.h"
 #include "world/narrow_phase/offset_surface.h"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <cstddef>
-#include <memory>
 #include <optional>
+#include <span>
+#include <utility>
 #include <variant>
 
 namespace abut {
@@ -49,6 +55,11 @@ ContactFace face_of(const PlacedBody& body, const Vec3& direction, const Vec3& o
                         origin);
 }
 
+/// The names of points of the last query.
+std::span<const std::uint64_t> names_of(const PairWarmStart& warm_start) {
+    return {warm_start.points.data(), warm_start.points.size()};
+}
+
 /// The contact of two convex shapes. Returns whether they are at most the margin apart.
 bool convex_contact(const PlacedBody& a, const PlacedBody& b, double margin,
                     PairWarmStart& warm_start, ContactManifold& manifold) {
@@ -65,7 +76,8 @@ bool convex_contact(const PlacedBody& a, const PlacedBody& b, double margin,
                             0x1p-50 * sum_of_sizes(origin);
     set_corners_and_witness(
         face_of(a, normal, origin), face_of(b, -normal, origin), ContactFrame(origin, normal),
-        {gap.distance, gap.point_a, gap.point_b, normal}, {margin, rounding}, manifold);
+        {gap.distance, gap.point_a, gap.point_b, normal},
+        {margin, rounding, names_of(warm_start)}, manifold);
     return true;
 }
 
@@ -109,19 +121,99 @@ std::optional<OffsetSurface> triangles_of(const BodyShape& shape) {
 
 /// The manifolds of two surfaces, one for each region where they meet. A surface that lies inside the
 /// other shares no point with it.
-void append_surface_contacts(const OffsetSurface& a, const Transform& world_from_a,
-                             const OffsetSurface& b, const Transform& world_from_b, double margin,
-                             std::vector<ContactManifold>& manifolds) {
+std::vector<ModelManifold> surface_regions(const PlacedBody& a, const PlacedBody& b, double margin,
+                                           const std::vector<ModelManifold>& last) {
+    const auto of_a = triangles_of(a.shape), of_b = triangles_of(b.shape);
     ManifoldOptions options;
     options.margin = margin;
-    for (const ModelManifold& region :
-         surface_manifolds(a.surface, compose(world_from_a, a.body_from_surface), b.surface,
-                           compose(world_from_b, b.body_from_surface), options)) {
-        ContactManifold& manifold = manifolds.emplace_back();
-        manifold.normal = region.normal, manifold.region = region.region;
-        manifold.count = region.count, manifold.points = region.points;
-        manifold.status = Status::bound_only;
+    options.last = &last;
+    return surface_manifolds(of_a->surface, compose(a.world_from_body, of_a->body_from_surface),
+                             of_b->surface, compose(b.world_from_body, of_b->body_from_surface),
+                             options);
+}
+
+/// The convex solid of a pair whose other body is a surface.
+struct SolidOfPair {
+    std::optional<ConvexFaces> faces;
+    bool is_a = false;
+};
+/// Of two, the smaller one; of two as large, a.
+SolidOfPair solid_of(const PlacedBody& a, const PlacedBody& b) {
+    SolidOfPair of_a, of_b;
+    if (is_surface(b.shape))
+        of_a = {convex_faces(a.shape, a.world_from_body), true};
+    if (is_surface(a.shape))
+        of_b = {convex_faces(b.shape, b.world_from_body), false};
+    return of_a.faces && (!of_b.faces || of_a.faces->reach <= of_b.faces->reach) ? of_a : of_b;
+}
+
+/// Where the bodies of a pair are nearest.
+class NearestOfBodies final : public NearestOfPair {
+public:
+    NearestOfBodies(const PlacedBody& a, const PlacedBody& b, const SolidOfPair& solid,
+                    double margin, PairWarmStart& warm_start)
+        : a_(a), b_(b), solid_(solid), margin_(margin), warm_start_(warm_start) {}
+
+    [[nodiscard]] SolidPlace of_pair() const override {
+        const BodyGap gap =
+            signed_gap_between(a_, b_, std::nextafter(margin_, HUGE_VAL), warm_start_);
+        const Transform& frame = solid_.faces->world_from_solid;
+        const auto to_solid = [&](const Vec3& p) {
+            return pull_back(frame, p - Vec3{frame.m[9], frame.m[10], frame.m[11]});
+        };
+        const Vec3 up = pull_back(frame, solid_.is_a ? -gap.normal : gap.normal);
+        return {to_solid(solid_.is_a ? gap.point_b : gap.point_a),
+                to_solid(solid_.is_a ? gap.point_a : gap.point_b), up, gap.distance};
     }
+    [[nodiscard]] SolidPlace of_triangle(const Triangle& triangle, double bound) const override {
+        const PlacedBody& body = solid_.is_a ? a_ : b_;
+        const OffsetSurface surface = *triangles_of(body.shape);
+        // The frame of a box is that of its axes, not of the body.
+        const Transform& frame = solid_.faces->world_from_solid;
+        Transform from_world = inverse(frame);
+        const PlacedModel faces(surface.surface,
+                                compose(from_world, compose(body.world_from_body,
+                                                            surface.body_from_surface)));
+        SolidPlace nearest;
+        nearest.distance = bound;
+        faces.for_each_near_hull(triangle, bound, [&](std::uint32_t slot) {
+            const ClosestPoints here =
+                triangle_triangle_distance(triangle, faces.world_slot(slot));
+            if (const double distance = std::sqrt(here.distance_sq); distance < nearest.distance)
+                nearest = {here.a, here.b, normalized_or_zero(here.b - here.a), distance};
+        });
+        return nearest;
+    }
+
+private:
+    const PlacedBody &a_, &b_;
+    const SolidOfPair& solid_;
+    double margin_;
+    PairWarmStart& warm_start_;
+};
+
+/// The manifolds of a convex solid and a surface. Returns a bound of the rounding of their depths; none,
+/// and adds nothing, if pairs of triangles have to tell them.
+std::optional<double> add_solid_regions(const PlacedBody& a, const PlacedBody& b, double margin,
+                                        PairWarmStart& warm_start,
+                                        std::vector<ModelManifold>& regions) {
+    const std::vector<ModelManifold>& last = warm_start.regions.manifolds;
+    const SolidOfPair solid = solid_of(a, b);
+    if (!solid.faces)
+        return std::nullopt;
+    const PlacedBody& ground = solid.is_a ? b : a;
+    boost::container::small_vector<std::uint64_t, 8> names;
+    for (const ModelManifold& m : last)
+        for (std::uint32_t i = 0; i < m.count; ++i)
+            names.push_back(m.points[i].feature);
+    const OffsetSurface surface = *triangles_of(ground.shape);
+    const auto rounding = add_solid_on_surface(
+        *solid.faces, surface.surface, compose(ground.world_from_body, surface.body_from_surface),
+        solid.is_a, margin, std::span(names.data(), names.size()),
+        NearestOfBodies(a, b, solid, margin, warm_start), regions);
+    if (rounding)
+        name_regions(regions, &last);
+    return rounding;
 }
 
 /// Whether the kind of shape has a face for `face_of`. Curved shapes and half-spaces have one point.
@@ -131,13 +223,14 @@ bool has_faces(const BodyShape& shape) {
 
 /// Adds the other corners of a body that stands on a half-space.
 void add_plane_corners(const PlacedBody& a, const PlacedBody& b, double margin,
-                       ContactManifold& manifold) {
+                       const PairWarmStart& warm_start, ContactManifold& manifold) {
     const bool body_is_a = is_half_space(b.shape);
     const PlacedBody &body = body_is_a ? a : b, &ground = body_is_a ? b : a;
     const PlaneShape plane = placed(std::get<PlaneShape>(ground.shape), ground.world_from_body);
     const ContactPoint& deepest = manifold.points[0];
     const Vec3 origin = body_is_a ? deepest.point_a : deepest.point_b;
-    const ContactLimits limits{margin, contact_rounding(a, b) + 0x1p-50 * sum_of_sizes(origin)};
+    const ContactLimits limits{margin, contact_rounding(a, b) + 0x1p-50 * sum_of_sizes(origin),
+                               names_of(warm_start)};
     if (has_faces(body.shape)) {
         set_plane_corners(face_of(body, -plane.normal, origin), body_is_a, plane, limits, manifold);
     } else if (const auto triangles = triangles_of(body.shape)) {
@@ -161,8 +254,11 @@ bool solid_contact(const PlacedBody& a, const PlacedBody& b, double margin,
                      placed_b = placed(*box_b, b.world_from_body);
     // In the order in which gap_between measures: of several normals that are as good, it has one.
     if (!comes_before(*box_b, b.world_from_body, *box_a, a.world_from_body))
-        return rounded_box_contact(placed_a, placed_b, at_most, manifold);
-    const bool is_near = rounded_box_contact(placed_b, placed_a, at_most, manifold);
+        return rounded_box_contact(placed_a, placed_b, at_most, names_of(warm_start), manifold);
+    auto last = warm_start.points;
+    std::transform(last.begin(), last.end(), last.begin(), turned_round);
+    const bool is_near =
+        rounded_box_contact(placed_b, placed_a, at_most, {last.data(), last.size()}, manifold);
     manifold.normal = -manifold.normal;
     for (std::uint32_t i = 0; is_near && i < manifold.count; ++i) {
         ContactPoint& point = manifold.points[i];
@@ -197,7 +293,8 @@ bool is_within(const PlacedBody& a, const PlacedBody& b, double margin, PairWarm
 }
 
 /// The largest depth of the manifolds from `first` on.
-double deepest_from(std::size_t first, const std::vector<ContactManifold>& manifolds) {
+template <typename Manifold>
+double deepest_from(std::size_t first, const std::vector<Manifold>& manifolds) {
     double deepest = -HUGE_VAL;
     for (std::size_t k = first; k < manifolds.size(); ++k)
         for (std::uint32_t i = 0; i < manifolds[k].count; ++i)
@@ -205,20 +302,25 @@ double deepest_from(std::size_t first, const std::vector<ContactManifold>& manif
     return deepest;
 }
 
+/// How far the depths of two bodies may differ from those that other queries tell.
+double doubt_of(const PlacedBody& a, const PlacedBody& b) {
+    const double rounding = contact_rounding(a, b);
+    // The triangles of a box are rounded in the world.
+    return 2 * rounding + (rounding > 0 && (is_surface(a.shape) || is_surface(b.shape))
+                               ? world_rounding(a.world_from_body, b.world_from_body)
+                               : 0);
+}
+
 /// Removes the manifolds from `first` on if they are nearly the margin apart and other queries say
 /// that the bodies are beyond it. Else no gap exceeds the margin.
-void keep_within_margin(const PlacedBody& a, const PlacedBody& b, double margin,
+template <typename Manifold>
+void keep_within_margin(const PlacedBody& a, const PlacedBody& b, double margin, double doubt,
                         PairWarmStart& warm_start, std::size_t first,
-                        std::vector<ContactManifold>& manifolds) {
-    const double rounding = contact_rounding(a, b);
-    if (rounding == 0 || manifolds.size() == first)
+                        std::vector<Manifold>& manifolds) {
+    if (doubt == 0 || manifolds.size() == first)
         return;
     const auto begin = manifolds.begin() + static_cast<std::ptrdiff_t>(first);
     const double deepest = deepest_from(first, manifolds);
-    // The triangles of a box are rounded in the world.
-    const double doubt = 2 * rounding + (is_surface(a.shape) || is_surface(b.shape)
-                                             ? world_rounding(a.world_from_body, b.world_from_body)
-                                             : 0);
     if (deepest <= -margin + doubt && !is_within(a, b, margin, warm_start)) {
         manifolds.erase(begin, manifolds.end());
         return;
@@ -228,27 +330,30 @@ void keep_within_margin(const PlacedBody& a, const PlacedBody& b, double margin,
             each->points[i].depth = std::max(each->points[i].depth, -margin);
 }
 
-/// As append_surface_contacts, if both bodies have triangles. The result depends on nothing but the
-/// bodies' placements and the margin, so that it may be kept.
-void append_kept_contacts(const BodiesInContact& bodies, double margin, PairWarmStart& warm_start,
-                          std::vector<ContactManifold>& manifolds) {
-    std::unique_ptr<RestingContacts>& kept = warm_start.resting;
-    if (kept && kept->placements == bodies.placements && kept->margin == margin) {
-        manifolds.insert(manifolds.end(), kept->manifolds.begin(), kept->manifolds.end());
-        return;
+/// The contacts of two bodies with triangles, at least one of them a surface. Of bodies that have not
+/// moved since the last query, its contacts.
+void append_region_contacts(const BodiesInContact& bodies, double margin,
+                            PairWarmStart& warm_start, std::vector<ContactManifold>& manifolds) {
+    const PlacedBody &a = bodies.a, &b = bodies.b;
+    RegionsOfPair& kept = warm_start.regions;
+    if (kept.placements != bodies.placements || kept.margin != margin) {
+        if (!triangles_of(a.shape) || !triangles_of(b.shape))
+            return;
+        std::vector<ModelManifold> regions;
+        double doubt = doubt_of(a, b);
+        if (const auto rounding = add_solid_regions(a, b, margin, warm_start, regions))
+            doubt += *rounding;
+        else
+            regions = surface_regions(a, b, margin, kept.manifolds);
+        keep_within_margin(a, b, margin, doubt, warm_start, 0, regions);
+        kept = {bodies.placements, margin, std::move(regions)};
     }
-    kept.reset();
-    const auto triangles_a = triangles_of(bodies.a.shape),
-               triangles_b = triangles_of(bodies.b.shape);
-    if (!triangles_a || !triangles_b)
-        return;
-    const auto first = static_cast<std::ptrdiff_t>(manifolds.size());
-    append_surface_contacts(*triangles_a, bodies.a.world_from_body, *triangles_b,
-                            bodies.b.world_from_body, margin, manifolds);
-    keep_within_margin(bodies.a, bodies.b, margin, warm_start, std::size_t(first), manifolds);
-    if (bodies.at_rest)
-        kept = std::make_unique<RestingContacts>(RestingContacts{
-            bodies.placements, margin, {manifolds.begin() + first, manifolds.end()}});
+    for (const ModelManifold& region : kept.manifolds) {
+        ContactManifold& manifold = manifolds.emplace_back();
+        manifold.normal = region.normal, manifold.region = region.region;
+        manifold.count = region.count, manifold.points = region.points;
+        manifold.status = Status::bound_only;
+    }
 }
 
 } // namespace
@@ -258,7 +363,7 @@ void append_contacts(const BodiesInContact& bodies, double margin, PairWarmStart
     const PlacedBody &a = bodies.a, &b = bodies.b;
     const std::size_t first = manifolds.size();
     if (is_surface(a.shape) || is_surface(b.shape)) {
-        append_kept_contacts(bodies, margin, warm_start, manifolds);
+        append_region_contacts(bodies, margin, warm_start, manifolds);
         // The triangles of a box are rounded, so that they may miss what the box touches. They also
         // miss a surface that lies wholly inside a solid, which is in contact.
         if (!(is_surface(a.shape) && is_surface(b.shape)) &&
@@ -273,14 +378,17 @@ void append_contacts(const BodiesInContact& bodies, double margin, PairWarmStart
     } else if (!has_faces(a.shape) || !has_faces(b.shape)) {
         append_one_point(a, b, margin, warm_start, manifolds);
     } else if (solid_contact(a, b, margin, warm_start, manifolds.emplace_back())) {
-        keep_within_margin(a, b, margin, warm_start, first, manifolds);
+        keep_within_margin(a, b, margin, doubt_of(a, b), warm_start, first, manifolds);
     } else {
         manifolds.pop_back();
     }
     if (manifolds.size() > first && is_half_space(a.shape) != is_half_space(b.shape))
-        add_plane_corners(a, b, margin, manifolds[first]);
+        add_plane_corners(a, b, margin, warm_start, manifolds[first]);
     for (std::size_t i = first; i < manifolds.size(); ++i)
         manifolds[i].a = bodies.ids.a, manifolds[i].b = bodies.ids.b;
+    warm_start.points.clear();
+    for (std::uint32_t i = 0; manifolds.size() > first && i < manifolds[first].count; ++i)
+        warm_start.points.push_back(manifolds[first].points[i].feature);
 }
 
 } // namespace abut

@@ -1,6 +1,7 @@
 #include "world/contacts/contact_candidates.h"
 
 #include "world/contacts/capsule_height.h"
+#include "world/contacts/four_points.h"
 
 #include <algorithm>
 #include <array>
@@ -345,34 +346,17 @@ void add_overlap_corners(const ContactFace& a, const ContactFace& b, const Conta
         overlap_of_segments(flat_a, a.radius, flat_b, b.radius, candidates);
 }
 
-void keep_four(ContactCandidates& candidates) {
-    if (candidates.empty())
-        return;
-    const auto deeper = [](const ContactCandidate& p, const ContactCandidate& q) {
-        return p.depth() < q.depth();
-    };
-    std::swap(candidates[0], *std::max_element(candidates.begin(), candidates.end(), deeper));
-    if (candidates.size() <= 4)
-        return;
-    const ContactCandidate first = candidates[0];
-    const auto bring_largest = [&](std::size_t place, const auto& size) {
-        std::size_t largest = place;
-        double most = size(candidates[place]);
-        for (std::size_t i = place + 1; i < candidates.size(); ++i)
-            if (const double here = size(candidates[i]); here > most)
-                largest = i, most = here;
-        std::swap(candidates[place], candidates[largest]);
-    };
-    bring_largest(1, [&](const ContactCandidate& c) {
-        return square(c.x - first.x) + square(c.y - first.y);
-    });
-    const ContactCandidate second = candidates[1];
-    const auto left = [&](const ContactCandidate& c) {
-        return (second.x - first.x) * (c.y - first.y) - (second.y - first.y) * (c.x - first.x);
-    };
-    bring_largest(2, left);
-    bring_largest(3, [&](const ContactCandidate& c) { return -left(c); });
-    candidates.resize(4);
+void keep_four(ContactCandidates& candidates, double rounding,
+               std::span<const std::uint64_t> last) {
+    boost::container::small_vector<RegionPoint, 12> points;
+    points.reserve(candidates.size());
+    for (const ContactCandidate& c : candidates)
+        points.push_back({c.x, c.y, c.depth(), c.feature});
+    ContactCandidates kept;
+    for (const std::size_t i :
+         four_points(std::span(points.data(), points.size()), rounding, last))
+        kept.push_back(candidates[i]);
+    candidates = kept;
 }
 
 } // namespace abut

@@ -5,6 +5,7 @@
 
 #include <boost/container/small_vector.hpp>
 #include <cstdint>
+#include <span>
 
 namespace abut {
 
@@ -57,10 +58,8 @@ std::uint64_t turned_round(std::uint64_t feature);
 void add_overlap_corners(const ContactFace& a, const ContactFace& b, const ContactFrame& frame,
                          ContactCandidates& candidates);
 
-/// Keeps at most four candidates: the deepest first, the one farthest from it, and on both sides of
-/// the line through these two the ones farthest from the line.
-///
-/// Accuracy    the four hold at least a quarter of the candidates' area.
-void keep_four(ContactCandidates& candidates);
+/// Keeps at most four candidates, as four_points says: the deepest first.
+void keep_four(ContactCandidates& candidates, double rounding = 0,
+               std::span<const std::uint64_t> last = {});
 
 } // namespace abut

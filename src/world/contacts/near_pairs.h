@@ -6,7 +6,6 @@
 #include "world/narrow_phase/world_data.h"
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace abut {
@@ -24,10 +23,6 @@ public:
     /// Tells that options or filter of the bodies have changed.
     void forget() { broad_phase_.forget(); }
 
-    /// Sets the latest placement that a query of contacts has seen. Returns that of the query before.
-    std::uint64_t exchange_last_placement(std::uint64_t placement) {
-        return std::exchange(last_placement_, placement);
-    }
     [[nodiscard]] const std::vector<IndexPair>& pairs() const { return broad_phase_.pairs(); }
     [[nodiscard]] std::vector<PairWarmStart>& warm_starts() { return warm_starts_; }
 
@@ -39,7 +34,6 @@ private:
     std::vector<std::uint32_t> changed_;
     std::vector<std::uint8_t> is_new_; ///< whether a body has another generation than before
     std::vector<PairWarmStart> warm_starts_;
-    std::uint64_t last_placement_ = 0;
     PairChanges changes_; ///< empty between updates
 };
 

@@ -93,7 +93,7 @@ bool contact_by_axis(const RoundedBox& a, const RoundedBox& b, const ContactLimi
 void write_points(ContactCandidates& candidates, const ContactFrame& frame,
                   const ContactLimits& limits, ContactManifold& manifold) {
     drop_beyond_margin(candidates, limits);
-    keep_four(candidates);
+    keep_four(candidates, limits.rounding, limits.last);
     manifold.normal = frame.normal;
     manifold.region = 0;
     manifold.status = Status::exact;
@@ -140,9 +140,9 @@ void set_corners_and_witness(const ContactFace& a, const ContactFace& b, const C
 }
 
 bool rounded_box_contact(const RoundedBox& a, const RoundedBox& b, double margin,
-                         ContactManifold& manifold) {
-    const ContactLimits limits{margin,
-                               0x1p-46 * (length(b.centre - a.centre) + size_of(a) + size_of(b))};
+                         std::span<const std::uint64_t> last, ContactManifold& manifold) {
+    const ContactLimits limits{
+        margin, 0x1p-46 * (length(b.centre - a.centre) + size_of(a) + size_of(b)), last};
     // The distance of two capsules costs less than the axes.
     if (!has_no_extent(a) && !has_no_extent(b) && !(is_segment(a) && is_segment(b))) {
         bool apart = false;

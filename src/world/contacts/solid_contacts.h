@@ -6,12 +6,16 @@
 #include "world/contacts/contact_candidates.h"
 #include "world/contacts/contact_face.h"
 
+#include <cstdint>
+#include <span>
+
 namespace abut {
 
 /// What decides which candidates become contact points.
 struct ContactLimits {
     double margin = 0;   ///< candidates whose gap is larger are left out
     double rounding = 0; ///< error bound of a depth
+    std::span<const std::uint64_t> last{}; ///< names of points of the last step
 };
 
 /// Writes the candidates that are within the margin, at most four, and the frame's normal. The region
@@ -38,8 +42,9 @@ void set_corners_and_witness(const ContactFace& a, const ContactFace& b, const C
 /// The contact of two rounded boxes, of which only those without extent on two axes have a radius.
 /// Returns whether they are at most the margin apart. Ids are not set.
 ///
+/// In          last: the names of points of the last step.
 /// Accuracy    the normal is that of `rounded_box_distance`.
 bool rounded_box_contact(const RoundedBox& a, const RoundedBox& b, double margin,
-                         ContactManifold& manifold);
+                         std::span<const std::uint64_t> last, ContactManifold& manifold);
 
 } // namespace abut

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <abut/contacts.h>
+#include <abut/model_contacts.h>
 #include <abut/rigid.h>
 
 #include "world/narrow_phase/body.h"
 
+#include <boost/container/static_vector.hpp>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -23,11 +25,11 @@ struct PlacementPair {
     bool operator==(const PlacementPair&) const = default;
 };
 
-/// The manifolds of two surfaces that have not moved since.
-struct RestingContacts {
+/// The manifolds of two surfaces, or of a solid and a surface, at the last query of contacts.
+struct RegionsOfPair {
     PlacementPair placements;
     double margin = 0;
-    std::vector<ContactManifold> manifolds;
+    std::vector<ModelManifold> manifolds;
 };
 
 /// Data kept from one query of two bodies to the next, for all kinds of shape.
@@ -35,7 +37,9 @@ struct PairWarmStart {
     WarmStart surfaces;
     ConvexWarmStart solids;
     Vec3 direction; ///< from a to b in the table's order; zero: none is known
-    std::unique_ptr<RestingContacts> resting; ///< null while a body moves
+    RegionsOfPair regions;
+    /// The names of the points of other bodies at the last query of contacts.
+    boost::container::static_vector<std::uint64_t, 4> points;
 };
 
 /// Whether two bodies share a point.

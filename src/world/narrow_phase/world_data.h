@@ -70,8 +70,6 @@ public:
     [[nodiscard]] PlacementPair placements_of(IndexPair pair) const {
         return {bodies_[pair.a()].placement, bodies_[pair.b()].placement};
     }
-    /// The number of the latest placement of any body.
-    [[nodiscard]] std::uint64_t last_placement() const { return last_placement_; }
     [[nodiscard]] BodyPair ids_of(IndexPair pair) const {
         return {id_of(pair.a()), id_of(pair.b())};
     }
