@@ -10,6 +10,7 @@
 #include "world/contacts/capsule_contacts.h"
 #include "world/contacts/convex_faces.h"
 #include "world/contacts/plane_contacts.h"
+#include "world/contacts/rounded_on_surface.h"
 #include "world/contacts/solid_contacts.h"
 #include "world/contacts/solid_on_surface.h"
 #include "world/narrow_phase/contact_rounding.h"
@@ -278,10 +279,11 @@ void add_capsule_points(const PlacedBody& a, const PlacedBody& b, double margin,
         return;
     const RoundedBox solid = placed(*rounded, body.world_from_body);
     const auto triangles = triangles_of(ground.shape);
-    add_capsule_ends(triangles->surface,
-                     compose(ground.world_from_body, triangles->body_from_surface),
-                     {axis_of(solid), solid.radius}, capsule_is_a,
-                     {margin, 2 * contact_rounding(a, b)}, manifold);
+    const auto ends = contacts_of_ends(
+        triangles->surface, compose(ground.world_from_body, triangles->body_from_surface),
+        {axis_of(solid), solid.radius}, capsule_is_a, manifold.normal,
+        {margin, 2 * contact_rounding(a, b)});
+    add_capsule_ends(axis_of(solid), ends, capsule_is_a, manifold);
 }
 
 /// Whether two bodies are at most the margin apart, as the other queries of a world tell it.
@@ -356,13 +358,39 @@ void append_region_contacts(const BodiesInContact& bodies, double margin,
     }
 }
 
+/// The contact of a ball or a capsule and a surface, where triangles near its core tell it. Returns whether
+/// they do.
+bool append_rounded_contact(const PlacedBody& a, const PlacedBody& b, double margin,
+                            PairWarmStart& warm_start, std::vector<ContactManifold>& manifolds) {
+    const bool solid_is_a = is_surface(b.shape);
+    const PlacedBody &body = solid_is_a ? a : b, &ground = solid_is_a ? b : a;
+    const auto* rounded = std::get_if<RoundedBox>(&body.shape);
+    if (rounded == nullptr || dimension(*rounded) > 1 || !(rounded->radius > 0))
+        return false;
+    const OffsetSurface surface = *triangles_of(ground.shape);
+    const auto found = rounded_on_surface(
+        placed(*rounded, body.world_from_body), surface.surface,
+        compose(ground.world_from_body, surface.body_from_surface), solid_is_a, margin);
+    if (!found)
+        return false;
+    const double doubt = found->rounding + 2 * contact_rounding(a, b);
+    const std::size_t first = manifolds.size();
+    if (found->manifold.count > 0)
+        manifolds.push_back(found->manifold);
+    keep_within_margin(a, b, margin, doubt, warm_start, first, manifolds);
+    return true;
+}
+
 } // namespace
 
 void append_contacts(const BodiesInContact& bodies, double margin, PairWarmStart& warm_start,
                      std::vector<ContactManifold>& manifolds) {
     const PlacedBody &a = bodies.a, &b = bodies.b;
     const std::size_t first = manifolds.size();
-    if (is_surface(a.shape) || is_surface(b.shape)) {
+    if ((is_surface(a.shape) || is_surface(b.shape)) &&
+        append_rounded_contact(a, b, margin, warm_start, manifolds)) {
+        // All is told.
+    } else if (is_surface(a.shape) || is_surface(b.shape)) {
         append_region_contacts(bodies, margin, warm_start, manifolds);
         // The triangles of a box are rounded, so that they may miss what the box touches. They also
         // miss a surface that lies wholly inside a solid, which is in contact.

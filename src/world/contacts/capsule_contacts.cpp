@@ -1,24 +1,19 @@
 #include "world/contacts/capsule_contacts.h"
 
-#include "math/vector.h"
 #include "world/narrow_phase/core_gap.h"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <utility>
 
 namespace abut {
 
 namespace {
 
-/// The contact of the ball at an end, along the capsule's normal; none if the ball's own normal leads
-/// another way.
-///
 /// In          normal: from the surface to the capsule.
 std::optional<ContactPoint> contact_of_end(const Model& surface,
                                            const Transform& world_from_surface, const Sphere& end,
                                            const Vec3& normal, const ContactLimits& limits) {
-    constexpr double kSameWay = 0.9; // the cosine of 26 degrees
     const double farthest = limits.margin + limits.rounding;
     BodyGap gap =
         ball_gap(surface, world_from_surface, end, std::nextafter(farthest, HUGE_VAL), Depths::no);
@@ -26,7 +21,7 @@ std::optional<ContactPoint> contact_of_end(const Model& surface,
         return std::nullopt;
     if (gap.distance <= 0)
         gap = ball_gap(surface, world_from_surface, end, HUGE_VAL, Depths::yes);
-    if (dot(gap.normal, normal) < kSameWay)
+    if (!leads_same_way(gap.normal, normal))
         return std::nullopt;
     ContactPoint point;
     point.depth = std::max(-gap.distance, -limits.margin);
@@ -37,36 +32,44 @@ std::optional<ContactPoint> contact_of_end(const Model& surface,
 
 } // namespace
 
-void add_capsule_ends(const Model& surface, const Transform& world_from_surface,
-                      const Capsule& capsule, bool capsule_is_a, const ContactLimits& limits,
-                      ContactManifold& manifold) {
+std::array<std::optional<ContactPoint>, 2>
+contacts_of_ends(const Model& surface, const Transform& world_from_surface, const Capsule& capsule,
+                 bool capsule_is_a, const Vec3& normal, const ContactLimits& limits) {
+    const auto contact = [&](const Vec3& centre) {
+        auto point = contact_of_end(surface, world_from_surface, {centre, capsule.radius},
+                                    capsule_is_a ? -normal : normal, limits);
+        if (point && capsule_is_a)
+            std::swap(point->point_a, point->point_b);
+        return point;
+    };
+    return {contact(capsule.axis.a), contact(capsule.axis.b)};
+}
+
+void add_capsule_ends(const Segment& axis,
+                      const std::array<std::optional<ContactPoint>, 2>& contacts_of_ends,
+                      bool capsule_is_a, ContactManifold& manifold) {
     // Parts of the axis' length. A point that is deeper by less is one of a line that lies flat, whose place
     // rounding decides.
     constexpr double kAsDeep = 0x1p-20;
     constexpr double kApart = 0.125;
     const ContactPoint deepest = manifold.points[0];
-    const Vec3 normal = capsule_is_a ? -manifold.normal : manifold.normal,
-               axis = capsule.axis.b - capsule.axis.a;
+    const Vec3 way = axis.b - axis.a;
     double depth_of_ends = -HUGE_VAL;
     manifold.count = 0;
     const auto add = [&](ContactPoint point, CapsulePoint name) {
         point.feature = static_cast<std::uint64_t>(name);
         manifold.points[manifold.count++] = point;
     };
-    for (const auto& [centre, name] : {std::pair(capsule.axis.a, CapsulePoint::end_a),
-                                       std::pair(capsule.axis.b, CapsulePoint::end_b)})
-        if (auto point = contact_of_end(surface, world_from_surface, {centre, capsule.radius},
-                                        normal, limits)) {
-            if (capsule_is_a)
-                std::swap(point->point_a, point->point_b);
-            depth_of_ends = std::max(depth_of_ends, point->depth);
-            add(*point, name);
+    for (const auto& [contact, name] : {std::pair(contacts_of_ends[0], CapsulePoint::end_a),
+                                        std::pair(contacts_of_ends[1], CapsulePoint::end_b)})
+        if (contact) {
+            depth_of_ends = std::max(depth_of_ends, contact->depth);
+            add(*contact, name);
         }
     const auto along = [&](const ContactPoint& point) {
-        return dot((capsule_is_a ? point.point_a : point.point_b) - capsule.axis.a, axis) /
-               length_sq(axis);
+        return dot((capsule_is_a ? point.point_a : point.point_b) - axis.a, way) / length_sq(way);
     };
-    const bool is_deeper = deepest.depth > depth_of_ends + kAsDeep * length(axis);
+    const bool is_deeper = deepest.depth > depth_of_ends + kAsDeep * length(way);
     if (is_deeper || manifold.count == 0 ||
         (manifold.count == 1 && std::abs(along(deepest) - along(manifold.points[0])) > kApart))
         add(deepest, CapsulePoint::middle);

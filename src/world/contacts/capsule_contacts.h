@@ -4,24 +4,39 @@
 #include <abut/model.h>
 #include <abut/shapes.h>
 
+#include "math/vector.h"
 #include "world/contacts/solid_contacts.h"
 
+#include <array>
 #include <cstdint>
+#include <optional>
 
 namespace abut {
 
 /// Names of the points of a capsule's contact with a surface.
 enum class CapsulePoint : std::uint8_t { middle = 0, end_a = 1, end_b = 2 };
 
-/// Adds the ends of a capsule on a surface to their contact, which has the deepest point. An end is added
-/// if its ball is at most the margin from the surface, and the ball's normal is within 26 degrees of the
-/// contact's. The deepest point is left out if an end is as deep: along a flat surface, all points of the
-/// axis are.
+/// Whether the normal of a ball at an end is within 26 degrees of the capsule's.
+inline bool leads_same_way(const Vec3& normal_of_end, const Vec3& normal) {
+    constexpr double kCosOfSameWay = 0.9;
+    return dot(normal_of_end, normal) >= kCosOfSameWay;
+}
+
+/// The contacts of the balls at both ends of a capsule with a surface; none where a ball is farther from it
+/// than the margin, or does not lead the same way as the contact's normal.
 ///
-/// In          the capsule in the world. manifold: normal from a to b.
+/// In          the capsule in the world. normal: from a to b.
+std::array<std::optional<ContactPoint>, 2>
+contacts_of_ends(const Model& surface, const Transform& world_from_surface, const Capsule& capsule,
+                 bool capsule_is_a, const Vec3& normal, const ContactLimits& limits);
+
+/// Adds the ends of a capsule on a surface to their contact, which has the deepest point. That is left out
+/// if an end is as deep: along a flat surface, all points of the axis are.
+///
+/// In          axis: in the world.
 /// Out         up to three points, the deepest first.
-void add_capsule_ends(const Model& surface, const Transform& world_from_surface,
-                      const Capsule& capsule, bool capsule_is_a, const ContactLimits& limits,
-                      ContactManifold& manifold);
+void add_capsule_ends(const Segment& axis,
+                      const std::array<std::optional<ContactPoint>, 2>& contacts_of_ends,
+                      bool capsule_is_a, ContactManifold& manifold);
 
 } // namespace abut

@@ -1,0 +1,170 @@
+#include "world/contacts/rounded_on_surface.h"
+
+#include "geometry/supporting_normal.h"
+#include "geometry/triangle_triangle_distance.h"
+#include "rigid/model/placed_model.h"
+#include "world/contacts/capsule_contacts.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/container/small_vector.hpp>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+namespace abut {
+
+namespace {
+
+/// Bound of the rounding of a distance, relative to the coordinates that it was computed from.
+constexpr double kRoundingOfCore = 0x1p-48;
+
+/// Triangles that are farther than the nearest one by at most this factor are at the same place.
+constexpr double kBeside = 1 + 0x1p-20;
+
+/// A triangle near the core, and where they are nearest.
+struct TriangleBelow {
+    Triangle corners;
+    std::uint32_t slot = 0;
+    Vec3 on_surface, on_core;
+    double distance = 0;
+};
+
+/// Finds the contact. All positions are relative to the middle of the core.
+class RoundedOnSurface {
+public:
+    RoundedOnSurface(const RoundedBox& solid, const Model& surface,
+                     const Transform& world_from_surface, double margin)
+        : surface_(surface, world_from_surface, solid.centre), radius_(solid.radius),
+          margin_(margin), is_ball_(dimension(solid) == 0) {
+        if (!is_ball_) {
+            const Segment axis = axis_of(solid);
+            ends_ = {axis.a - solid.centre, axis.b - solid.centre};
+        }
+        size_ = sum_of_sizes(solid.centre) + surface_.reach() + length(ends_[0]) + radius_;
+    }
+
+    std::optional<RoundedContact> find(const Vec3& centre, bool solid_is_a) {
+        RoundedContact found;
+        found.rounding = kRoundingOfCore * size_;
+        collect();
+        if (below_.empty())
+            return found;
+        const TriangleBelow& nearest = *std::min_element(
+            below_.begin(), below_.end(), [](const TriangleBelow& s, const TriangleBelow& t) {
+                return s.distance < t.distance;
+            });
+        if (!(nearest.distance > kTellsDirection * size_) || !is_outside(nearest))
+            return std::nullopt;
+        const Vec3 up = (1 / nearest.distance) * (nearest.on_core - nearest.on_surface);
+        ContactManifold& m = found.manifold;
+        m.normal = solid_is_a ? -up : up;
+        m.count = 1;
+        m.points[0] = point_at(nearest.on_surface, nearest.on_core - radius_ * up,
+                               radius_ - nearest.distance, centre, solid_is_a);
+        if (!is_ball_) {
+            const std::array contacts{contact_of_end(ends_[0], up, centre, solid_is_a),
+                                      contact_of_end(ends_[1], up, centre, solid_is_a)};
+            add_capsule_ends({centre + ends_[0], centre + ends_[1]}, contacts, solid_is_a, m);
+        }
+        return found;
+    }
+
+private:
+    void collect() {
+        double bound = radius_ + margin_ + kRoundingOfCore * size_;
+        const std::span<const Vec3> core(ends_.data(), is_ball_ ? 1 : 2);
+        const Vec3 low = min(ends_[0], ends_[1]), high = max(ends_[0], ends_[1]);
+        surface_.for_each_near_hull(core, bound, [&](std::uint32_t slot) {
+            TriangleBelow t;
+            t.corners = surface_.world_slot(slot);
+            const auto& [p, q, r] = t.corners;
+            const Vec3 between =
+                max(max(min(p, min(q, r)) - high, low - max(p, max(q, r))), Vec3{});
+            if (length_sq(between) > bound * bound)
+                return;
+            t.slot = slot;
+            double sq = 0;
+            if (is_ball_) {
+                const NearestOnTriangle near = nearest_on_triangle(ends_[0], t.corners);
+                t.on_surface = near.point, t.on_core = ends_[0], sq = near.distance_sq;
+            } else {
+                const ClosestPoints near =
+                    triangle_triangle_distance(t.corners, {ends_[0], ends_[1], ends_[1]});
+                t.on_surface = near.a, t.on_core = near.b, sq = near.distance_sq;
+            }
+            t.distance = std::sqrt(sq);
+            if (!(t.distance <= bound))
+                return;
+            below_.push_back(t);
+            // A ball needs the nearest triangles only, and those beside them.
+            if (is_ball_)
+                bound = std::min(bound, kBeside * t.distance);
+        });
+        // The order in which a tree is traversed differs between processors.
+        std::sort(below_.begin(), below_.end(), [](const TriangleBelow& s, const TriangleBelow& t) {
+            return s.slot < t.slot;
+        });
+    }
+
+    /// Whether the core lies on the outer side of all triangles at the nearest place. Both sides of an
+    /// open surface are outer ones.
+    [[nodiscard]] bool is_outside(const TriangleBelow& nearest) const {
+        const Solid& solid = surface_.data().solid();
+        if (!solid.closed)
+            return true;
+        const auto& m = surface_.world().m;
+        const double mirrored =
+            dot(cross({m[0], m[1], m[2]}, {m[3], m[4], m[5]}), {m[6], m[7], m[8]}) < 0 ? -1 : 1;
+        const double facing = mirrored * solid.outward;
+        if (facing == 0)
+            return false;
+        return std::all_of(below_.begin(), below_.end(), [&](const TriangleBelow& t) {
+            const Vec3 normal = cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]);
+            return t.distance > kBeside * nearest.distance ||
+                   facing * dot(normal, t.on_core - t.on_surface) > 0;
+        });
+    }
+
+    [[nodiscard]] static ContactPoint point_at(const Vec3& on_surface, const Vec3& on_solid,
+                                               double depth, const Vec3& centre, bool solid_is_a) {
+        const Vec3 &a = solid_is_a ? on_solid : on_surface, &b = solid_is_a ? on_surface : on_solid;
+        return {centre + a, centre + b, depth, 0};
+    }
+
+    /// The contact of the ball at an end, along the capsule's normal; none if the ball's own normal leads
+    /// another way.
+    [[nodiscard]] std::optional<ContactPoint> contact_of_end(const Vec3& end, const Vec3& up,
+                                                             const Vec3& centre,
+                                                             bool solid_is_a) const {
+        double nearest_sq = HUGE_VAL;
+        Vec3 way;
+        for (const TriangleBelow& t : below_)
+            if (const NearestOnTriangle near = nearest_on_triangle(end, t.corners);
+                near.distance_sq < nearest_sq)
+                nearest_sq = near.distance_sq, way = end - near.point;
+        const double distance = std::sqrt(nearest_sq), depth = radius_ - distance;
+        if (depth < -margin_ || !leads_same_way(normalized_or_zero(way), up))
+            return std::nullopt;
+        const Vec3 on_solid = end - radius_ * up;
+        return point_at(on_solid + depth * up, on_solid, depth, centre, solid_is_a);
+    }
+
+    PlacedModel surface_;
+    double radius_, margin_;
+    bool is_ball_;
+    std::array<Vec3, 2> ends_{};
+    double size_ = 0; ///< bounds the coordinates
+    boost::container::small_vector<TriangleBelow, 16> below_;
+};
+
+} // namespace
+
+std::optional<RoundedContact> rounded_on_surface(const RoundedBox& solid, const Model& surface,
+                                                 const Transform& world_from_surface,
+                                                 bool solid_is_a, double margin) {
+    return RoundedOnSurface(solid, surface, world_from_surface, margin)
+        .find(solid.centre, solid_is_a);
+}
+
+} // namespace abut
