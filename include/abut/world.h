@@ -201,6 +201,9 @@ public:
     ///             bodies counts as contact. `penetration`, `contact_manifolds` and `within(0)` list
     ///             the same pairs, whatever was asked before.
     std::vector<BodyPair> collide(const Progress& progress = {});
+    /// This overload and the next two set a list of the caller's. Its memory is used again, so that a step
+    /// in which no body moves, and no more of them touch than before, allocates nothing.
+    void collide(std::vector<BodyPair>& pairs, const Progress& progress = {});
     /// As `collide`, with penetration depths and witness points.
     ///
     /// Accuracy    whether bodies meet: as `collide`. The depth is correct to rounding for convex
@@ -219,6 +222,7 @@ public:
     ///             half-spaces that meet are infinitely deep in each other, unless their normals are
     ///             opposite.
     std::vector<BodyGap> penetration(const Progress& progress = {});
+    void penetration(std::vector<BodyGap>& gaps, const Progress& progress = {});
     /// Finds all pairs of bodies that are at most `distance` apart, and their signed distances
     /// (BodyGap).
     ///
@@ -242,6 +246,8 @@ public:
     ///             of two models or deformables are kept while both stay in place.
     std::vector<ContactManifold> contact_manifolds(double margin = 0,
                                                    const Progress& progress = {});
+    void contact_manifolds(std::vector<ContactManifold>& manifolds, double margin = 0,
+                           const Progress& progress = {});
 
     /// Finds when bodies that move in this step first meet. Each pair is listed once; the list is
     /// sorted. Deformables move as their steps define, with the same t from 0 to 1 as the motions.

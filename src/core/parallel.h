@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 #include <tbb/task_arena.h>
@@ -19,6 +20,16 @@
 
 namespace abut {
 
+/// Whether there is one thread only. Another thread may change that at any time, so it says only what is
+/// best.
+inline bool is_sequential() {
+#ifdef __SANITIZE_THREAD__
+    return false;
+#else
+    return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) == 1;
+#endif
+}
+
 /// Calls body(i) for every i in [0, count), in parallel, in chunks of at least `grain`.
 ///
 /// The order of the calls is not fixed, so write results to slot i. If calls throw, one of the
@@ -33,7 +44,16 @@ void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
         return;
     }
     const std::atomic<bool>* const stop = t_stop_flag;
-#ifdef __SANITIZE_THREAD__
+#ifndef __SANITIZE_THREAD__
+    if (is_sequential()) {
+        for (std::size_t i = 0; i < count; ++i) {
+            if (i % grain == 0)
+                poll_stop();
+            body(i);
+        }
+        return;
+    }
+#else
     // The thread sanitizer cannot see into the packaged oneTBB and reports its synchronisation as
     // races. Plain threads in its place show the races of this library's own code.
     std::atomic<std::size_t> next{0};
@@ -59,7 +79,8 @@ void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
         thread.join();
     if (failure)
         std::rethrow_exception(failure);
-#else
+#endif
+#ifndef __SANITIZE_THREAD__
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                           const StopScope scope(stop);

@@ -72,39 +72,53 @@ std::vector<BodyPair> with_ids(const WorldData& data, const std::vector<IndexPai
     return result;
 }
 
-/// Calls append(pair, k, results) for the k-th pair, in parallel. Returns all results, in order.
+/// Calls append(pair, k, results) for the k-th pair, in parallel. Sets the results to all of them, in order.
+///
+/// In          parts: memory that is used again.
 template <typename Result, typename Append>
-std::vector<Result> all_results_of(const Progress& progress, std::string_view stage,
-                                   const std::vector<IndexPair>& pairs, const Append& append) {
+void find_all(const Progress& progress, std::string_view stage, const std::vector<IndexPair>& pairs,
+              const Append& append, std::vector<std::vector<Result>>& parts,
+              std::vector<Result>& results) {
     constexpr std::size_t kPairsOfTask = 16;
     const StopScope stopping(progress);
     ProgressMeter meter(progress, stage, pairs.size());
-    std::vector<std::vector<Result>> found((pairs.size() + kPairsOfTask - 1) / kPairsOfTask);
-    parallel_for(found.size(), 1, [&](std::size_t task) {
+    results.clear();
+    const auto append_task = [&](std::size_t task, std::vector<Result>& part) {
         const std::size_t end = std::min(pairs.size(), (task + 1) * kPairsOfTask);
         for (std::size_t k = task * kPairsOfTask; k < end; ++k)
-            append(pairs[k], k, found[task]);
+            append(pairs[k], k, part);
         meter.advance(end - task * kPairsOfTask);
+    };
+    const std::size_t tasks = (pairs.size() + kPairsOfTask - 1) / kPairsOfTask;
+    if (is_sequential()) {
+        for (std::size_t task = 0; task < tasks; ++task) {
+            poll_stop();
+            append_task(task, results);
+        }
+        return;
+    }
+    if (parts.size() < tasks)
+        parts.resize(tasks);
+    parallel_for(tasks, 1, [&](std::size_t task) {
+        parts[task].clear();
+        append_task(task, parts[task]);
     });
-    std::size_t size = 0;
-    for (const auto& some : found)
-        size += some.size();
-    std::vector<Result> results;
-    results.reserve(size);
-    for (auto& some : found)
-        std::move(some.begin(), some.end(), std::back_inserter(results));
-    return results;
+    for (std::size_t task = 0; task < tasks; ++task)
+        results.insert(results.end(), parts[task].begin(), parts[task].end());
 }
 
-/// As all_results_of, where find(pair, k) returns a result or none.
+/// As find_all, where find(pair, k) returns a result or none.
 template <typename Result, typename Find>
-std::vector<Result> results_of(const Progress& progress, std::string_view stage,
-                               const std::vector<IndexPair>& pairs, const Find& find) {
-    return all_results_of<Result>(progress, stage, pairs,
-                                  [&](IndexPair pair, std::size_t k, std::vector<Result>& results) {
-                                      if (std::optional<Result> result = find(pair, k))
-                                          results.push_back(*result);
-                                  });
+void find_each(const Progress& progress, std::string_view stage,
+               const std::vector<IndexPair>& pairs, const Find& find,
+               std::vector<std::vector<Result>>& parts, std::vector<Result>& results) {
+    find_all<Result>(
+        progress, stage, pairs,
+        [&](IndexPair pair, std::size_t k, std::vector<Result>& part) {
+            if (std::optional<Result> result = find(pair, k))
+                part.push_back(*result);
+        },
+        parts, results);
 }
 
 } // namespace
@@ -210,21 +224,34 @@ std::vector<BodyPair> World::ended() const {
 }
 
 std::vector<BodyPair> World::collide(const Progress& progress) {
+    std::vector<BodyPair> pairs;
+    collide(pairs, progress);
+    return pairs;
+}
+
+void World::collide(std::vector<BodyPair>& pairs, const Progress& progress) {
     data_->update_if_changed();
     std::vector<PairWarmStart>& warm_starts = data_->warm_starts();
-    return results_of<BodyPair>(
+    find_each<BodyPair>(
         progress, "touching", data_->broad_phase().pairs(),
         [&](IndexPair pair, std::size_t k) -> std::optional<BodyPair> {
             if (!touch(data_->placed(pair.a()), data_->placed(pair.b()), warm_starts[k]))
                 return std::nullopt;
             return data_->ids_of(pair);
-        });
+        },
+        data_->parts().pairs, pairs);
 }
 
 std::vector<BodyGap> World::penetration(const Progress& progress) {
+    std::vector<BodyGap> gaps;
+    penetration(gaps, progress);
+    return gaps;
+}
+
+void World::penetration(std::vector<BodyGap>& gaps, const Progress& progress) {
     data_->update_if_changed();
     std::vector<PairWarmStart>& warm_starts = data_->warm_starts();
-    return results_of<BodyGap>(
+    find_each<BodyGap>(
         progress, "contacts", data_->broad_phase().pairs(),
         [&](IndexPair pair, std::size_t k) -> std::optional<BodyGap> {
             const PlacedBody a = data_->placed(pair.a()), b = data_->placed(pair.b());
@@ -238,7 +265,8 @@ std::vector<BodyGap> World::penetration(const Progress& progress) {
                 return std::nullopt;
             std::tie(gap.a, gap.b) = std::pair(data_->id_of(pair.a()), data_->id_of(pair.b()));
             return gap;
-        });
+        },
+        data_->parts().gaps, gaps);
 }
 
 std::vector<BodyGap> World::within(double distance, const Progress& progress) {
@@ -247,7 +275,8 @@ std::vector<BodyGap> World::within(double distance, const Progress& progress) {
     const std::vector<IndexPair> near =
         overlapping_boxes(data_->boxes(), distance,
                           [&](std::uint32_t i, std::uint32_t k) { return data_->may_meet(i, k); });
-    return results_of<BodyGap>(
+    std::vector<BodyGap> gaps;
+    find_each<BodyGap>(
         progress, "distances", near,
         [&](IndexPair pair, std::size_t /*k*/) -> std::optional<BodyGap> {
             PairWarmStart warm_start;
@@ -259,22 +288,32 @@ std::vector<BodyGap> World::within(double distance, const Progress& progress) {
                 return std::nullopt;
             std::tie(gap.a, gap.b) = std::pair(data_->id_of(pair.a()), data_->id_of(pair.b()));
             return gap;
-        });
+        },
+        data_->parts().gaps, gaps);
+    return gaps;
 }
 
 std::vector<ContactManifold> World::contact_manifolds(double margin, const Progress& progress) {
+    std::vector<ContactManifold> manifolds;
+    contact_manifolds(manifolds, margin, progress);
+    return manifolds;
+}
+
+void World::contact_manifolds(std::vector<ContactManifold>& manifolds, double margin,
+                              const Progress& progress) {
     require(margin >= 0 && margin < HUGE_VAL, "margin must be a length, not negative");
     data_->update_if_changed();
     if (margin > 0)
         near_pairs_->update(margin);
     auto& warm_starts = margin > 0 ? near_pairs_->warm_starts() : data_->warm_starts();
-    return all_results_of<ContactManifold>(
+    find_all<ContactManifold>(
         progress, "contacts", margin > 0 ? near_pairs_->pairs() : data_->broad_phase().pairs(),
-        [&](IndexPair pair, std::size_t k, std::vector<ContactManifold>& manifolds) {
+        [&](IndexPair pair, std::size_t k, std::vector<ContactManifold>& part) {
             append_contacts({data_->placed(pair.a()), data_->placed(pair.b()), data_->ids_of(pair),
                              data_->placements_of(pair)},
-                            margin, warm_starts[k], manifolds);
-        });
+                            margin, warm_starts[k], part);
+        },
+        data_->parts().manifolds, manifolds);
 }
 
 std::vector<BodyImpact> World::time_of_impact(const std::vector<BodyMotion>& motions,
@@ -314,8 +353,10 @@ std::vector<BodyImpact> World::time_of_impact(const std::vector<BodyMotion>& mot
             return (moves[i] != 0 || moves[k] != 0) && data_->may_meet(i, k);
         });
     ImpactOptions each = options;
-    each.progress = {}; // results_of reports and polls for all pairs
-    return results_of<BodyImpact>(
+    each.progress = {}; // find_each reports and polls for all pairs
+    std::vector<std::vector<BodyImpact>> parts;
+    std::vector<BodyImpact> impacts;
+    find_each<BodyImpact>(
         options.progress, "impacts", pairs,
         [&](IndexPair pair, std::size_t /*k*/) -> std::optional<BodyImpact> {
             const Body &a = bodies[pair.a()], &b = bodies[pair.b()];
@@ -324,7 +365,9 @@ std::vector<BodyImpact> World::time_of_impact(const std::vector<BodyMotion>& mot
             if (!impact.meet)
                 return std::nullopt;
             return BodyImpact{data_->id_of(pair.a()), data_->id_of(pair.b()), impact};
-        });
+        },
+        parts, impacts);
+    return impacts;
 }
 
 void World::set_speed(BodyId body, const SpeedBounds& bounds) {

@@ -62,10 +62,15 @@ struct OutlineCorner {
 constexpr std::uint32_t kSideOfA = 1U << 31;
 using Outline = boost::container::small_vector<OutlineCorner, 16>;
 
-/// Keeps the part of an outline to the left of the edge from p to q. New sides are called `side`.
-void clip(const Outline& outline, const FlatCorner& p, const FlatCorner& q, std::uint32_t side,
+/// Keeps the part of an outline to the left of the edge from p to q. New sides are called `side`. Returns
+/// false, and keeps nothing, if that is the whole outline.
+bool clip(const Outline& outline, const FlatCorner& p, const FlatCorner& q, std::uint32_t side,
           Outline& kept) {
     kept.clear();
+    if (std::all_of(outline.begin(), outline.end(), [&](const OutlineCorner& corner) {
+            return left_of(p, q, corner.x, corner.y) >= 0;
+        }))
+        return false;
     double next = left_of(p, q, outline[0].x, outline[0].y);
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const OutlineCorner &from = outline[i], &to = outline[i + 1 == outline.size() ? 0 : i + 1];
@@ -79,6 +84,7 @@ void clip(const Outline& outline, const FlatCorner& p, const FlatCorner& q, std:
         kept.push_back({from.x + t * (to.x - from.x), from.y + t * (to.y - from.y),
                         from.height + t * (to.height - from.height), here >= 0 ? side : from.side});
     }
+    return true;
 }
 
 /// The corner of a face that is nearest across the normal.
@@ -176,8 +182,9 @@ void overlap_of_polygons(const ContactFace& face_a, const FlatFace& a, const Fla
     for (std::size_t i = 0; i < b.size(); ++i)
         outlines[now].push_back({b[i].x, b[i].y, b[i].height, static_cast<std::uint32_t>(i)});
     for (std::size_t i = 0; i < a.size(); ++i) {
-        clip(outlines[now], a[i], a[i + 1 == a.size() ? 0 : i + 1],
-             kSideOfA | static_cast<std::uint32_t>(i), outlines[1 - now]);
+        if (!clip(outlines[now], a[i], a[i + 1 == a.size() ? 0 : i + 1],
+                  kSideOfA | static_cast<std::uint32_t>(i), outlines[1 - now]))
+            continue;
         now = 1 - now;
         if (outlines[now].empty())
             return;
@@ -270,6 +277,9 @@ void overlap_of_segments(const FlatFace& a, double radius_a, const FlatFace& b, 
     // The end of one axis and the point of the other beside it; the place of contact divides their
     // difference as the radii.
     const auto add = [&](double x_a, double y_a, double x_b, double y_b, FeatureKind end) {
+        // One of the two is straight beside the other's axis, so that no place is over both.
+        if (square(x_b - x_a) + square(y_b - y_a) > square(radii))
+            return;
         const double share = radius_a / radii;
         const double x = x_a + share * (x_b - x_a), y = y_a + share * (y_b - y_a);
         const auto top = capsule_height(a0, a1, radius_a, x, y, 1),
@@ -348,6 +358,12 @@ void add_overlap_corners(const ContactFace& a, const ContactFace& b, const Conta
 
 void keep_four(ContactCandidates& candidates, double rounding,
                std::span<const std::uint64_t> last) {
+    if (candidates.size() <= 4) {
+        for (std::size_t i = 1; i < candidates.size(); ++i)
+            for (std::size_t k = i; k > 0 && candidates[k].depth() > candidates[k - 1].depth(); --k)
+                std::swap(candidates[k], candidates[k - 1]);
+        return;
+    }
     boost::container::small_vector<RegionPoint, 12> points;
     points.reserve(candidates.size());
     for (const ContactCandidate& c : candidates)

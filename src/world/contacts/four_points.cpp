@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace abut {
 
@@ -45,7 +46,8 @@ private:
         });
         const RegionPoint& first = points_[chosen_[0]];
         take([&](const RegionPoint& p) {
-            return loyal(p, std::hypot(p.x - first.x, p.y - first.y));
+            const double x = p.x - first.x, y = p.y - first.y;
+            return loyal(p, loyal(p, x * x + y * y)); // of a square
         });
         const RegionPoint& second = points_[chosen_[1]];
         const auto left = [&](const RegionPoint& p) {
@@ -120,9 +122,10 @@ boost::container::static_vector<std::size_t, 4> four_points(std::span<const Regi
         for (std::size_t i = 0; i < points.size(); ++i)
             result.push_back(i);
     }
-    std::stable_sort(result.begin(), result.end(), [&](std::size_t i, std::size_t k) {
-        return points[i].depth > points[k].depth;
-    });
+    // Four at most: std::stable_sort would allocate a buffer.
+    for (std::size_t i = 1; i < result.size(); ++i)
+        for (std::size_t k = i; k > 0 && points[result[k]].depth > points[result[k - 1]].depth; --k)
+            std::swap(result[k], result[k - 1]);
     return result;
 }
 

@@ -59,6 +59,13 @@ public:
     /// A warm start for each pair of `broad_phase().pairs()`.
     /// Brings them up to date, so call it before the pairs are handed to threads.
     [[nodiscard]] std::vector<PairWarmStart>& warm_starts();
+    /// Memory of the results of tasks, used again by the next query.
+    struct ResultParts {
+        std::vector<std::vector<BodyPair>> pairs;
+        std::vector<std::vector<BodyGap>> gaps;
+        std::vector<std::vector<ContactManifold>> manifolds;
+    };
+    [[nodiscard]] ResultParts& parts() { return parts_; }
 
     [[nodiscard]] PlacedBody placed(std::uint32_t index) const {
         return {bodies_[index].shape, bodies_[index].world_from_body};
@@ -96,6 +103,7 @@ private:
     std::size_t alive_ = 0;
     BroadPhase broad_phase_;
     std::vector<PairWarmStart> warm_starts_; ///< of the pairs before `pair_changes_`
+    ResultParts parts_;
     PairChanges pair_changes_;
 };
 
