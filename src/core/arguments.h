@@ -7,6 +7,11 @@
 namespace abut {
 
 /// Errors      Error{bad_argument} with this message unless the condition holds.
+/// Literals have an overload of their own: a string would be made in each call.
+inline void require(bool condition, const char* message) {
+    if (!condition)
+        throw Error(ErrorCode::bad_argument, message);
+}
 inline void require(bool condition, const std::string& message) {
     if (!condition)
         throw Error(ErrorCode::bad_argument, message);

@@ -97,6 +97,12 @@ std::vector<Match> matches_by_distance(const std::vector<ModelManifold>& now,
 } // namespace
 
 void name_regions(std::vector<ModelManifold>& manifolds, const std::vector<ModelManifold>* last) {
+    if (manifolds.size() == 1 && (last == nullptr || last->size() <= 1)) {
+        const bool stays =
+            last != nullptr && !last->empty() && may_be_same(manifolds[0], last->front());
+        manifolds[0].region = stays ? last->front().region : 0;
+        return;
+    }
     std::vector<bool> named(manifolds.size());
     std::vector<std::uint32_t> taken;
     if (last != nullptr) {

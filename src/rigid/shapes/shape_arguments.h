@@ -19,9 +19,12 @@ inline constexpr std::size_t kShapesPerTask = 64;
 
 /// Requires coordinates in the range that a mesh allows.
 inline void require_point(const Vec3& p, const char* what) {
+    const bool in_range =
+        std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kLargestCoordinate;
+    if (is_finite(p) && in_range)
+        return;
     require(is_finite(p), std::string(what) + " has a coordinate that is not finite");
-    require(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kLargestCoordinate,
-            std::string(what) + " has a coordinate beyond 1e18");
+    require(in_range, std::string(what) + " has a coordinate beyond 1e18");
 }
 
 inline void require_bound(double bound) {

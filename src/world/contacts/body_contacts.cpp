@@ -341,14 +341,16 @@ void append_region_contacts(const BodiesInContact& bodies, double margin,
     if (kept.placements != bodies.placements || kept.margin != margin) {
         if (!triangles_of(a.shape) || !triangles_of(b.shape))
             return;
-        std::vector<ModelManifold> regions;
+        static thread_local std::vector<ModelManifold> regions; // its memory is used again
+        regions.clear();
         double doubt = doubt_of(a, b);
         if (const auto rounding = add_solid_regions(a, b, margin, warm_start, regions))
             doubt += *rounding;
         else
             regions = surface_regions(a, b, margin, kept.manifolds);
         keep_within_margin(a, b, margin, doubt, warm_start, 0, regions);
-        kept = {bodies.placements, margin, std::move(regions)};
+        kept.placements = bodies.placements, kept.margin = margin;
+        kept.manifolds.assign(regions.begin(), regions.end());
     }
     for (const ModelManifold& region : kept.manifolds) {
         ContactManifold& manifold = manifolds.emplace_back();

@@ -73,10 +73,11 @@ void add_capsule_ends(const Segment& axis,
     if (is_deeper || manifold.count == 0 ||
         (manifold.count == 1 && std::abs(along(deepest) - along(manifold.points[0])) > kApart))
         add(deepest, CapsulePoint::middle);
-    const auto first = manifold.points.begin();
-    std::stable_sort(
-        first, first + manifold.count,
-        [](const ContactPoint& p, const ContactPoint& q) { return p.depth > q.depth; });
+    // Three at most: std::stable_sort would allocate a buffer.
+    for (std::uint32_t i = 1; i < manifold.count; ++i)
+        for (std::uint32_t k = i;
+             k > 0 && manifold.points[k].depth > manifold.points[k - 1].depth; --k)
+            std::swap(manifold.points[k], manifold.points[k - 1]);
 }
 
 } // namespace abut

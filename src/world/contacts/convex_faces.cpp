@@ -50,7 +50,7 @@ std::optional<ConvexFaces> faces_of(const ConvexShape& convex, const Transform& 
         return std::nullopt;
     ConvexFaces faces;
     faces.world_from_solid = world_from_body;
-    const auto vertices = body.vertices();
+    const auto& vertices = body.vertices();
     faces.vertices.assign(vertices.begin(), vertices.end());
     for (const Vec3& v : vertices)
         faces.middle = faces.middle + v;

@@ -18,9 +18,9 @@ struct ConvexFaces {
         Vec3 normal;       ///< outward, of unit length
         double offset = 0; ///< dot(normal, x) is at most this in the solid
     };
-    boost::container::small_vector<Plane, 8> planes;
-    boost::container::small_vector<Vec3, 8> vertices;
-    boost::container::small_vector<std::uint32_t, 8> numbers; ///< of the vertices in the body
+    boost::container::small_vector<Plane, 24> planes;
+    boost::container::small_vector<Vec3, 32> vertices;
+    boost::container::small_vector<std::uint32_t, 32> numbers; ///< of the vertices in the body
     Vec3 middle;                                              ///< inside
     Transform world_from_solid;
     double reach = 0; ///< no vertex is farther from `middle`

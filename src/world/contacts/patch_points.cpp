@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 namespace abut {
@@ -330,8 +331,9 @@ private:
             if (p.rank > 0)
                 if (const auto v = corner_beside(p, near))
                     p.feature = name_of_vertex(*v);
-        std::stable_sort(points_.begin(), points_.end(), [](const auto& p, const auto& q) {
-            return p.rank != q.rank ? p.rank < q.rank : p.depth > q.depth;
+        std::sort(points_.begin(), points_.end(), [](const auto& p, const auto& q) {
+            return std::tuple(p.rank, -p.depth, p.feature, p.x, p.y) <
+                   std::tuple(q.rank, -q.depth, q.feature, q.x, q.y);
         });
         std::size_t kept = 0;
         for (const PatchPoint& p : points_) {

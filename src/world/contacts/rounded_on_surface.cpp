@@ -7,10 +7,10 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace abut {
 
@@ -33,10 +33,13 @@ struct TriangleBelow {
 /// Finds the contact. All positions are relative to the middle of the core.
 class RoundedOnSurface {
 public:
+    /// In          memory: of earlier contacts, used again.
     RoundedOnSurface(const RoundedBox& solid, const Model& surface,
-                     const Transform& world_from_surface, double margin)
+                     const Transform& world_from_surface, double margin,
+                     std::vector<TriangleBelow>& memory)
         : surface_(surface, world_from_surface, solid.centre), radius_(solid.radius),
-          margin_(margin), is_ball_(dimension(solid) == 0) {
+          margin_(margin), is_ball_(dimension(solid) == 0), below_(memory) {
+        below_.clear();
         if (!is_ball_) {
             const Segment axis = axis_of(solid);
             ends_ = {axis.a - solid.centre, axis.b - solid.centre};
@@ -155,7 +158,7 @@ private:
     bool is_ball_;
     std::array<Vec3, 2> ends_{};
     double size_ = 0; ///< bounds the coordinates
-    boost::container::small_vector<TriangleBelow, 16> below_;
+    std::vector<TriangleBelow>& below_;
 };
 
 } // namespace
@@ -163,7 +166,8 @@ private:
 std::optional<RoundedContact> rounded_on_surface(const RoundedBox& solid, const Model& surface,
                                                  const Transform& world_from_surface,
                                                  bool solid_is_a, double margin) {
-    return RoundedOnSurface(solid, surface, world_from_surface, margin)
+    static thread_local std::vector<TriangleBelow> memory;
+    return RoundedOnSurface(solid, surface, world_from_surface, margin, memory)
         .find(solid.centre, solid_is_a);
 }
 

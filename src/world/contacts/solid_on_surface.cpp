@@ -24,6 +24,7 @@ struct PatchMemory {
     std::vector<TriangleMeeting> meetings;
     std::vector<std::uint32_t> part_of;
     std::vector<PatchPoint> points;
+    std::vector<RegionPoint> places;
 };
 
 /// The transform from a surface to a solid's frame. The difference of their places is taken first, so
@@ -274,7 +275,8 @@ private:
 
     /// Adds a manifold of four of the points.
     void write(const Vec3& up, std::vector<ModelManifold>& manifolds) const {
-        boost::container::small_vector<RegionPoint, 16> places;
+        std::vector<RegionPoint>& places = memory_.places;
+        places.clear();
         for (const PatchPoint& p : memory_.points)
             places.push_back({p.x, p.y, p.depth, p.feature});
         const Transform& to_world = solid_.world_from_solid;
@@ -283,7 +285,7 @@ private:
         m.normal = solid_is_a_ ? -normal : normal;
         m.status = Status::bound_only;
         for (const std::size_t i :
-             four_points(std::span(places.data(), places.size()), limits_.rounding, last_)) {
+             four_points(places, limits_.rounding, last_)) {
             const PatchPoint& p = memory_.points[i];
             const Vec3 on_surface = apply(to_world, p.on_surface),
                        on_solid = apply(to_world, p.on_solid);
