@@ -34,6 +34,7 @@
 #include <abut/properties.h>
 #include <abut/representatives.h>
 #include <abut/rigid.h>
+#include <abut/rigid_shape.h>
 #include <abut/robot.h>
 #include <abut/robot_description.h>
 #include <abut/scene.h>

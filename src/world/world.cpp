@@ -9,6 +9,7 @@
 #include "world/contacts/body_contacts.h"
 #include "world/contacts/near_pairs.h"
 #include "world/narrow_phase/world_data.h"
+#include "world/queries/body_tree.h"
 #include "world/schedule/body_impact.h"
 #include "world/schedule/time_to_collision_schedule.h"
 

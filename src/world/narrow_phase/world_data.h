@@ -80,6 +80,8 @@ public:
     [[nodiscard]] BodyPair ids_of(IndexPair pair) const {
         return {id_of(pair.a()), id_of(pair.b())};
     }
+    /// The number of the latest placement of any body.
+    [[nodiscard]] std::uint64_t last_placement() const { return last_placement_; }
     /// Whether options and filter allow the bodies to meet. In: i < k.
     [[nodiscard]] bool may_meet(std::uint32_t i, std::uint32_t k) const;
 

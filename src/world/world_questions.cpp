@@ -1,0 +1,121 @@
+#include <abut/rigid_shape.h>
+#include <abut/world.h>
+
+#include "core/arguments.h"
+#include "core/stop.h"
+#include "rigid/shapes/shape_arguments.h"
+#include "world/narrow_phase/world_data.h"
+#include "world/queries/body_tree.h"
+#include "world/queries/ray_body.h"
+#include "world/queries/rigid_shape_data.h"
+#include "world/schedule/body_impact.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace abut {
+
+namespace {
+
+bool is_asked(const WorldData& data, std::uint32_t index, const BodyQuery& query) {
+    const Body& body = data.bodies()[index];
+    return body.alive && (body.options.groups & query.groups) != 0 &&
+           (!query.filter || query.filter(data.id_of(index)));
+}
+
+/// Whether a hit comes before another: earlier, or at the same place of a body of lower index.
+bool comes_first(const BodyRayHit& hit, const BodyRayHit& other) {
+    return hit.t != other.t ? hit.t < other.t : hit.body < other.body;
+}
+
+} // namespace
+
+const BodyTree& World::tree() {
+    data_->update_if_changed();
+    if (!tree_ || tree_->version() != data_->last_placement())
+        tree_ = std::make_unique<BodyTree>(data_->boxes(), data_->last_placement());
+    return *tree_;
+}
+
+BodyRayHit World::first_hit(const Ray& ray, const BodyQuery& query) {
+    require_ray(ray);
+    const StopScope stopping(query.progress);
+    BodyRayHit first;
+    tree().for_each_on_ray(ray, [&](std::uint32_t index) {
+        poll_stop();
+        if (is_asked(*data_, index, query)) {
+            Ray rest = ray;
+            rest.t_max = std::min(ray.t_max, first.t);
+            BodyRayHit hit = ray_body_hit(data_->placed(index), rest, {});
+            hit.body = data_->id_of(index);
+            if (hit.meet && (!first.meet || comes_first(hit, first)))
+                first = hit;
+        }
+        return first.t;
+    });
+    return first;
+}
+
+std::vector<BodyRayHit> World::all_hits(const Ray& ray, const BodyQuery& query) {
+    require_ray(ray);
+    const StopScope stopping(query.progress);
+    std::vector<BodyRayHit> hits;
+    tree().for_each_on_ray(ray, [&](std::uint32_t index) {
+        poll_stop();
+        if (is_asked(*data_, index, query)) {
+            BodyRayHit hit = ray_body_hit(data_->placed(index), ray, {});
+            hit.body = data_->id_of(index);
+            if (hit.meet)
+                hits.push_back(hit);
+        }
+        return ray.t_max;
+    });
+    std::sort(hits.begin(), hits.end(), comes_first);
+    return hits;
+}
+
+std::vector<BodyId> World::overlaps(const RigidShape& shape, const Pose& pose,
+                                    const BodyQuery& query) {
+    require_point(pose.translation, "position");
+    const StopScope stopping(query.progress);
+    const RigidShapeData& asked = shape.data();
+    const Transform world_from_shape = pose;
+    std::vector<BodyId> found;
+    tree().for_each_overlap(
+        bounds_of(asked.shape, asked.own_bounds, world_from_shape), [&](std::uint32_t index) {
+            poll_stop();
+            PairWarmStart warm_start;
+            if (is_asked(*data_, index, query) &&
+                touch(data_->placed(index), {asked.shape, world_from_shape}, warm_start))
+                found.push_back(data_->id_of(index));
+        });
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+BodySweepHit World::sweep(const RigidShape& shape, const Motion& motion, const BodyQuery& query,
+                          const ImpactOptions& options) {
+    require_not_negative(options.absolute_error.value_or(0), "absolute error");
+    static_cast<void>(at(motion, 1)); // throws if the motion is not valid
+    const StopScope stopping(query.progress);
+    const RigidShapeData& asked = shape.data();
+    const MovingBody moving{asked.shape, asked.own_bounds, motion};
+    std::vector<std::uint32_t> candidates;
+    tree().for_each_overlap(swept_bounds(moving), [&](std::uint32_t index) {
+        if (is_asked(*data_, index, query))
+            candidates.push_back(index);
+    });
+    std::sort(candidates.begin(), candidates.end());
+    BodySweepHit first;
+    for (const std::uint32_t index : candidates) {
+        poll_stop();
+        const Body& body = data_->bodies()[index];
+        const Motion stays = Motion::fixed(body.pose);
+        const Impact impact = body_impact({body.shape, body.own_bounds, stays}, moving, options);
+        if (impact.meet && (!first.meet || impact.time < first.impact.time))
+            first = {true, data_->id_of(index), impact};
+    }
+    return first;
+}
+
+} // namespace abut
