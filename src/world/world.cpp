@@ -75,15 +75,16 @@ std::vector<BodyPair> with_ids(const WorldData& data, const std::vector<IndexPai
 
 /// Calls append(pair, k, results) for the k-th pair, in parallel. Sets the results to all of them, in order.
 ///
-/// In          parts: memory that is used again.
+/// In          parts: memory that is used again. expected: number of results, about.
 template <typename Result, typename Append>
 void find_all(const Progress& progress, std::string_view stage, const std::vector<IndexPair>& pairs,
               const Append& append, std::vector<std::vector<Result>>& parts,
-              std::vector<Result>& results) {
+              std::vector<Result>& results, std::size_t expected = 0) {
     constexpr std::size_t kPairsOfTask = 16;
     const StopScope stopping(progress);
     ProgressMeter meter(progress, stage, pairs.size());
     results.clear();
+    results.reserve(expected);
     const auto append_task = [&](std::size_t task, std::vector<Result>& part) {
         const std::size_t end = std::min(pairs.size(), (task + 1) * kPairsOfTask);
         for (std::size_t k = task * kPairsOfTask; k < end; ++k)
@@ -314,7 +315,8 @@ void World::contact_manifolds(std::vector<ContactManifold>& manifolds, double ma
                              data_->placements_of(pair)},
                             margin, warm_starts[k], part);
         },
-        data_->parts().manifolds, manifolds);
+        data_->parts().manifolds, manifolds, data_->parts().manifolds_found);
+    data_->parts().manifolds_found = manifolds.size();
 }
 
 std::vector<BodyImpact> World::time_of_impact(const std::vector<BodyMotion>& motions,

@@ -66,16 +66,19 @@ using Outline = boost::container::small_vector<OutlineCorner, 16>;
 /// false, and keeps nothing, if that is the whole outline.
 bool clip(const Outline& outline, const FlatCorner& p, const FlatCorner& q, std::uint32_t side,
           Outline& kept) {
-    kept.clear();
-    if (std::all_of(outline.begin(), outline.end(), [&](const OutlineCorner& corner) {
-            return left_of(p, q, corner.x, corner.y) >= 0;
-        }))
+    boost::container::small_vector<double, 16> lefts;
+    double least = 0;
+    for (const OutlineCorner& corner : outline) {
+        lefts.push_back(left_of(p, q, corner.x, corner.y));
+        least = std::min(least, lefts.back());
+    }
+    if (least >= 0)
         return false;
-    double next = left_of(p, q, outline[0].x, outline[0].y);
+    kept.clear();
     for (std::size_t i = 0; i < outline.size(); ++i) {
-        const OutlineCorner &from = outline[i], &to = outline[i + 1 == outline.size() ? 0 : i + 1];
-        const double here = next;
-        next = left_of(p, q, to.x, to.y);
+        const std::size_t k = i + 1 == outline.size() ? 0 : i + 1;
+        const OutlineCorner &from = outline[i], &to = outline[k];
+        const double here = lefts[i], next = lefts[k];
         if (here >= 0)
             kept.push_back(from);
         if ((here >= 0) == (next >= 0))
@@ -92,6 +95,8 @@ struct NearestCorner {
     std::uint32_t vertex = 0;
     double distance_sq = std::numeric_limits<double>::infinity();
 
+    /// A corner that is at the place.
+    explicit NearestCorner(const FlatCorner& corner) : vertex(corner.vertex), distance_sq(0) {}
     NearestCorner(const FlatFace& face, double x, double y) {
         for (const FlatCorner& corner : face) {
             const double sq = square(corner.x - x) + square(corner.y - y);
@@ -146,6 +151,11 @@ void add_candidate(ContactCandidates& candidates, const ContactCandidate& candid
     candidates.push_back(candidate);
 }
 
+/// Whether side i of a face with n corners follows side k.
+bool follows(std::uint32_t i, std::uint32_t k, std::size_t n) {
+    return i == (k + 1 == n ? 0 : k + 1);
+}
+
 /// Adds the corners of an outline with their names. In: the outline is not empty.
 void add_named_corners(const Outline& outline, const FlatFace& a, const FlatFace& b,
                        const FacePlane& plane, ContactCandidates& candidates) {
@@ -161,7 +171,17 @@ void add_named_corners(const Outline& outline, const FlatFace& a, const FlatFace
         const FeatureKind crossing = of_a != last_of_a ? FeatureKind::edges
                                      : of_a            ? FeatureKind::vertex_of_a
                                                        : FeatureKind::vertex_of_b;
-        const NearestCorner near_a(a, corner.x, corner.y), near_b(b, corner.x, corner.y);
+        // The outline runs around b's face as its corners do, and against those of a. So between two sides
+        // of one face that follow each other is a corner of it.
+        const std::uint32_t now = corner.side & ~kSideOfA, before = last_side & ~kSideOfA;
+        const NearestCorner near_a =
+            crossing == FeatureKind::vertex_of_a && follows(before, now, a.size())
+                ? NearestCorner(a[before])
+                : NearestCorner(a, corner.x, corner.y);
+        const NearestCorner near_b =
+            crossing == FeatureKind::vertex_of_b && follows(now, before, b.size())
+                ? NearestCorner(b[now])
+                : NearestCorner(b, corner.x, corner.y);
         const std::uint32_t side_a = of_a ? corner.side : last_side,
                             side_b = of_a ? last_side : corner.side;
         const FeatureKind kind = kind_within(reach_sq, near_a, near_b, crossing);

@@ -64,6 +64,7 @@ public:
         std::vector<std::vector<BodyPair>> pairs;
         std::vector<std::vector<BodyGap>> gaps;
         std::vector<std::vector<ContactManifold>> manifolds;
+        std::size_t manifolds_found = 0; ///< by the last query
     };
     [[nodiscard]] ResultParts& parts() { return parts_; }
 
