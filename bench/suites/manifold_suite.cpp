@@ -93,12 +93,13 @@ public:
         scene.bodies.push_back(floor);
         scene.poses.push_back({});
         for (std::size_t i = 0; i < count_; ++i) {
+            const std::size_t row = 1 + i / side;
             const double turn = draw(0, 3.141592653589793), c = std::cos(turn), s = std::sin(turn);
             const double half = std::sqrt(0.5); // capsules lie: they are turned about y, too
             scene.bodies.push_back(body);
             scene.poses.push_back(
                 {{kSpacing * static_cast<double>(1 + i % side) + draw(-0.5, 0.5),
-                  kSpacing * static_cast<double>(1 + i / side) + draw(-0.5, 0.5), -lowest - 1e-3},
+                  kSpacing * static_cast<double>(row) + draw(-0.5, 0.5), -lowest - 1e-3},
                  body.kind == ContactBody::Kind::capsule
                      ? std::array<double, 4>{half * c, -half * s, half * c, half * s}
                      : std::array<double, 4>{c, 0, 0, s}});

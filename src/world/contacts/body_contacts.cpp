@@ -134,6 +134,7 @@ std::vector<ModelManifold> surface_regions(const PlacedBody& a, const PlacedBody
 }
 
 /// The convex solid of a pair whose other body is a surface.
+// NOLINTNEXTLINE(bugprone-exception-escape): its move fails only for lack of memory
 struct SolidOfPair {
     std::optional<ConvexFaces> faces;
     bool is_a = false;

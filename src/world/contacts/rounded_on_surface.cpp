@@ -4,6 +4,7 @@
 #include "geometry/triangle_triangle_distance.h"
 #include "rigid/model/placed_model.h"
 #include "world/contacts/capsule_contacts.h"
+#include "world/narrow_phase/body.h"
 
 #include <algorithm>
 #include <array>

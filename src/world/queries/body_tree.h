@@ -68,7 +68,7 @@ private:
     }
 
     struct Unbounded {
-        std::uint32_t index;
+        std::uint32_t index = 0;
         Box3 box;
     };
     std::vector<Node> nodes_;

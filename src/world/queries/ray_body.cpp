@@ -5,6 +5,7 @@
 #include "convex/body/convex_data.h"
 #include "math/transform.h"
 #include "math/vector.h"
+#include "rigid/model/model_data.h"
 
 #include <algorithm>
 #include <array>

@@ -120,6 +120,7 @@ by_pair(const std::vector<ContactManifold>& manifolds) {
 /// The normals of manifolds, sorted. Points and their names may follow the last step; normals do not.
 std::vector<std::array<double, 3>> normals_of(const std::vector<ContactManifold>& manifolds) {
     std::vector<std::array<double, 3>> normals;
+    normals.reserve(manifolds.size());
     for (const ContactManifold& m : manifolds)
         normals.push_back({m.normal.x, m.normal.y, m.normal.z});
     std::sort(normals.begin(), normals.end());
