@@ -75,10 +75,10 @@ bool convex_contact(const PlacedBody& a, const PlacedBody& b, double margin,
     const double rounding = 0x1p-44 * (size_of(a.shape) + size_of(b.shape) +
                                        sum_of_sizes(Vec3{n[9], n[10], n[11]} - origin)) +
                             0x1p-50 * sum_of_sizes(origin);
-    set_corners_and_witness(
-        face_of(a, normal, origin), face_of(b, -normal, origin), ContactFrame(origin, normal),
-        {gap.distance, gap.point_a, gap.point_b, normal},
-        {margin, rounding, names_of(warm_start)}, manifold);
+    set_corners_and_witness(face_of(a, normal, origin), face_of(b, -normal, origin),
+                            ContactFrame(origin, normal),
+                            {gap.distance, gap.point_a, gap.point_b, normal},
+                            {margin, rounding, names_of(warm_start)}, manifold);
     return true;
 }
 
@@ -173,14 +173,13 @@ public:
         // The frame of a box is that of its axes, not of the body.
         const Transform& frame = solid_.faces->world_from_solid;
         Transform from_world = inverse(frame);
-        const PlacedModel faces(surface.surface,
-                                compose(from_world, compose(body.world_from_body,
-                                                            surface.body_from_surface)));
+        const PlacedModel faces(
+            surface.surface,
+            compose(from_world, compose(body.world_from_body, surface.body_from_surface)));
         SolidPlace nearest;
         nearest.distance = bound;
         faces.for_each_near_hull(triangle, bound, [&](std::uint32_t slot) {
-            const ClosestPoints here =
-                triangle_triangle_distance(triangle, faces.world_slot(slot));
+            const ClosestPoints here = triangle_triangle_distance(triangle, faces.world_slot(slot));
             if (const double distance = std::sqrt(here.distance_sq); distance < nearest.distance)
                 nearest = {here.a, here.b, normalized_or_zero(here.b - here.a), distance};
         });
@@ -284,7 +283,7 @@ void add_capsule_points(const PlacedBody& a, const PlacedBody& b, double margin,
         triangles->surface, compose(ground.world_from_body, triangles->body_from_surface),
         {axis_of(solid), solid.radius}, capsule_is_a, manifold.normal,
         {margin, 2 * contact_rounding(a, b)});
-    add_capsule_ends(axis_of(solid), ends, capsule_is_a, manifold);
+    add_capsule_ends(axis_of(solid), ends, std::nullopt, capsule_is_a, manifold);
 }
 
 /// Whether two bodies are at most the margin apart, as the other queries of a world tell it.
@@ -335,8 +334,8 @@ void keep_within_margin(const PlacedBody& a, const PlacedBody& b, double margin,
 
 /// The contacts of two bodies with triangles, at least one of them a surface. Of bodies that have not
 /// moved since the last query, its contacts.
-void append_region_contacts(const BodiesInContact& bodies, double margin,
-                            PairWarmStart& warm_start, std::vector<ContactManifold>& manifolds) {
+void append_region_contacts(const BodiesInContact& bodies, double margin, PairWarmStart& warm_start,
+                            std::vector<ContactManifold>& manifolds) {
     const PlacedBody &a = bodies.a, &b = bodies.b;
     RegionsOfPair& kept = warm_start.regions;
     if (kept.placements != bodies.placements || kept.margin != margin) {

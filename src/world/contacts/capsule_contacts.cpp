@@ -47,11 +47,9 @@ contacts_of_ends(const Model& surface, const Transform& world_from_surface, cons
 
 void add_capsule_ends(const Segment& axis,
                       const std::array<std::optional<ContactPoint>, 2>& contacts_of_ends,
-                      bool capsule_is_a, ContactManifold& manifold) {
-    // Parts of the axis' length. A point that is deeper by less is one of a line that lies flat, whose place
-    // rounding decides.
-    constexpr double kAsDeep = 0x1p-20;
-    constexpr double kApart = 0.125;
+                      const std::optional<ContactPoint>& between, bool capsule_is_a,
+                      ContactManifold& manifold) {
+    constexpr double kApart = 0.125; // parts of the axis' length
     const ContactPoint deepest = manifold.points[0];
     const Vec3 way = axis.b - axis.a;
     double depth_of_ends = -HUGE_VAL;
@@ -69,14 +67,16 @@ void add_capsule_ends(const Segment& axis,
     const auto along = [&](const ContactPoint& point) {
         return dot((capsule_is_a ? point.point_a : point.point_b) - axis.a, way) / length_sq(way);
     };
-    const bool is_deeper = deepest.depth > depth_of_ends + kAsDeep * length(way);
-    if (is_deeper || manifold.count == 0 ||
-        (manifold.count == 1 && std::abs(along(deepest) - along(manifold.points[0])) > kApart))
+    const bool is_deeper = deepest.depth > depth_of_ends + kDeeperThanEnds * length(way);
+    if (!is_deeper && between)
+        add(*between, CapsulePoint::middle);
+    else if (is_deeper || manifold.count == 0 ||
+             (manifold.count == 1 && std::abs(along(deepest) - along(manifold.points[0])) > kApart))
         add(deepest, CapsulePoint::middle);
     // Three at most: std::stable_sort would allocate a buffer.
     for (std::uint32_t i = 1; i < manifold.count; ++i)
-        for (std::uint32_t k = i;
-             k > 0 && manifold.points[k].depth > manifold.points[k - 1].depth; --k)
+        for (std::uint32_t k = i; k > 0 && manifold.points[k].depth > manifold.points[k - 1].depth;
+             --k)
             std::swap(manifold.points[k], manifold.points[k - 1]);
 }
 

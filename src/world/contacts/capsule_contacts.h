@@ -30,13 +30,19 @@ std::array<std::optional<ContactPoint>, 2>
 contacts_of_ends(const Model& surface, const Transform& world_from_surface, const Capsule& capsule,
                  bool capsule_is_a, const Vec3& normal, const ContactLimits& limits);
 
+/// Parts of a capsule's length. A point of its axis that is deeper than its ends, or than the line between
+/// their depths, by less is one of a line that lies flat, whose place rounding decides.
+inline constexpr double kDeeperThanEnds = 0x1p-20;
+
 /// Adds the ends of a capsule on a surface to their contact, which has the deepest point. That is left out
-/// if an end is as deep: along a flat surface, all points of the axis are.
+/// if an end is as deep: along a flat surface, all points of the axis are. Then a place between the ends
+/// takes its place, if one carries the capsule, as a ridge does.
 ///
-/// In          axis: in the world.
+/// In          axis: in the world. between: a place that is clearly deeper than the line between the ends.
 /// Out         up to three points, the deepest first.
 void add_capsule_ends(const Segment& axis,
                       const std::array<std::optional<ContactPoint>, 2>& contacts_of_ends,
-                      bool capsule_is_a, ContactManifold& manifold);
+                      const std::optional<ContactPoint>& between, bool capsule_is_a,
+                      ContactManifold& manifold);
 
 } // namespace abut

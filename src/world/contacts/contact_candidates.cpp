@@ -389,8 +389,7 @@ void keep_four(ContactCandidates& candidates, double rounding,
     for (const ContactCandidate& c : candidates)
         points.push_back({c.x, c.y, c.depth(), c.feature});
     ContactCandidates kept;
-    for (const std::size_t i :
-         four_points(std::span(points.data(), points.size()), rounding, last))
+    for (const std::size_t i : four_points(std::span(points.data(), points.size()), rounding, last))
         kept.push_back(candidates[i]);
     candidates = kept;
 }

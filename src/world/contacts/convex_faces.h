@@ -21,7 +21,7 @@ struct ConvexFaces {
     boost::container::small_vector<Plane, 24> planes;
     boost::container::small_vector<Vec3, 32> vertices;
     boost::container::small_vector<std::uint32_t, 32> numbers; ///< of the vertices in the body
-    Vec3 middle;                                              ///< inside
+    Vec3 middle;                                               ///< inside
     Transform world_from_solid;
     double reach = 0; ///< no vertex is farther from `middle`
 };

@@ -55,9 +55,8 @@ public:
         if (below_.empty())
             return found;
         const TriangleBelow& nearest = *std::min_element(
-            below_.begin(), below_.end(), [](const TriangleBelow& s, const TriangleBelow& t) {
-                return s.distance < t.distance;
-            });
+            below_.begin(), below_.end(),
+            [](const TriangleBelow& s, const TriangleBelow& t) { return s.distance < t.distance; });
         if (!(nearest.distance > kTellsDirection * size_) || !is_outside(nearest))
             return std::nullopt;
         const Vec3 up = (1 / nearest.distance) * (nearest.on_core - nearest.on_surface);
@@ -67,9 +66,10 @@ public:
         m.points[0] = point_at(nearest.on_surface, nearest.on_core - radius_ * up,
                                radius_ - nearest.distance, centre, solid_is_a);
         if (!is_ball_) {
-            const std::array contacts{contact_of_end(ends_[0], up, centre, solid_is_a),
-                                      contact_of_end(ends_[1], up, centre, solid_is_a)};
-            add_capsule_ends({centre + ends_[0], centre + ends_[1]}, contacts, solid_is_a, m);
+            const std::array contacts{contact_of_end(0, up, centre, solid_is_a),
+                                      contact_of_end(1, up, centre, solid_is_a)};
+            add_capsule_ends({centre + ends_[0], centre + ends_[1]}, contacts,
+                             contact_between_ends(up, centre, solid_is_a), solid_is_a, m);
         }
         return found;
     }
@@ -106,9 +106,8 @@ private:
                 bound = std::min(bound, kBeside * t.distance);
         });
         // The order in which a tree is traversed differs between processors.
-        std::sort(below_.begin(), below_.end(), [](const TriangleBelow& s, const TriangleBelow& t) {
-            return s.slot < t.slot;
-        });
+        std::sort(below_.begin(), below_.end(),
+                  [](const TriangleBelow& s, const TriangleBelow& t) { return s.slot < t.slot; });
     }
 
     /// Whether the core lies on the outer side of all triangles at the nearest place. Both sides of an
@@ -138,9 +137,9 @@ private:
 
     /// The contact of the ball at an end, along the capsule's normal; none if the ball's own normal leads
     /// another way.
-    [[nodiscard]] std::optional<ContactPoint> contact_of_end(const Vec3& end, const Vec3& up,
-                                                             const Vec3& centre,
-                                                             bool solid_is_a) const {
+    std::optional<ContactPoint> contact_of_end(std::size_t which, const Vec3& up,
+                                               const Vec3& centre, bool solid_is_a) {
+        const Vec3& end = ends_[which];
         double nearest_sq = HUGE_VAL;
         Vec3 way;
         for (const TriangleBelow& t : below_)
@@ -148,9 +147,35 @@ private:
                 near.distance_sq < nearest_sq)
                 nearest_sq = near.distance_sq, way = end - near.point;
         const double distance = std::sqrt(nearest_sq), depth = radius_ - distance;
+        depth_of_end_[which] = std::max(depth, -margin_);
         if (depth < -margin_ || !leads_same_way(normalized_or_zero(way), up))
             return std::nullopt;
-        const Vec3 on_solid = end - radius_ * up;
+        return point_below(end, up, depth, centre, solid_is_a);
+    }
+
+    /// The place of the axis that is deepest below the line between the depths of its ends, as over a ridge.
+    /// None if there is no clear one.
+    [[nodiscard]] std::optional<ContactPoint>
+    contact_between_ends(const Vec3& up, const Vec3& centre, bool solid_is_a) const {
+        const Vec3 way = ends_[1] - ends_[0];
+        double most = kDeeperThanEnds * length(way);
+        const TriangleBelow* best = nullptr;
+        for (const TriangleBelow& t : below_) {
+            const double share = dot(t.on_core - ends_[0], way) / length_sq(way);
+            const double over =
+                radius_ - t.distance - ((1 - share) * depth_of_end_[0] + share * depth_of_end_[1]);
+            if (over > most && leads_same_way((1 / t.distance) * (t.on_core - t.on_surface), up))
+                most = over, best = &t;
+        }
+        if (best == nullptr || radius_ - best->distance < -margin_)
+            return std::nullopt;
+        return point_below(best->on_core, up, radius_ - best->distance, centre, solid_is_a);
+    }
+
+    /// The contact of a point of the core, along the capsule's normal.
+    [[nodiscard]] ContactPoint point_below(const Vec3& on_core, const Vec3& up, double depth,
+                                           const Vec3& centre, bool solid_is_a) const {
+        const Vec3 on_solid = on_core - radius_ * up;
         return point_at(on_solid + depth * up, on_solid, depth, centre, solid_is_a);
     }
 
@@ -158,7 +183,8 @@ private:
     double radius_, margin_;
     bool is_ball_;
     std::array<Vec3, 2> ends_{};
-    double size_ = 0; ///< bounds the coordinates
+    std::array<double, 2> depth_of_end_{}; ///< at least minus the margin
+    double size_ = 0;                      ///< bounds the coordinates
     std::vector<TriangleBelow>& below_;
 };
 

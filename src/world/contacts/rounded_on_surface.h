@@ -11,8 +11,9 @@ namespace abut {
 
 /// The contact of a ball or a capsule and a surface, as far as triangles near its core tell it.
 struct RoundedContact {
-    double rounding = 0;      ///< bounds that of the depths
-    ContactManifold manifold; ///< without ids; without points if they are farther apart than the margin
+    double rounding = 0; ///< bounds that of the depths
+    ContactManifold
+        manifold; ///< without ids; without points if they are farther apart than the margin
 };
 
 /// Finds the contact of a ball or a capsule and a surface from the triangles near its core.

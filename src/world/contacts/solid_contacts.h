@@ -13,8 +13,8 @@ namespace abut {
 
 /// What decides which candidates become contact points.
 struct ContactLimits {
-    double margin = 0;   ///< candidates whose gap is larger are left out
-    double rounding = 0; ///< error bound of a depth
+    double margin = 0;                     ///< candidates whose gap is larger are left out
+    double rounding = 0;                   ///< error bound of a depth
     std::span<const std::uint64_t> last{}; ///< names of points of the last step
 };
 

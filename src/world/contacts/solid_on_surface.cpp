@@ -284,8 +284,7 @@ private:
         const Vec3 normal = apply_linear(to_world, up);
         m.normal = solid_is_a_ ? -normal : normal;
         m.status = Status::bound_only;
-        for (const std::size_t i :
-             four_points(places, limits_.rounding, last_)) {
+        for (const std::size_t i : four_points(places, limits_.rounding, last_)) {
             const PatchPoint& p = memory_.points[i];
             const Vec3 on_surface = apply(to_world, p.on_surface),
                        on_solid = apply(to_world, p.on_solid);
