@@ -264,7 +264,8 @@ public:
     /// region.
     ///
     /// Accuracy    for convex bodies, spheres, capsules, boxes: the normal is that of BodyGap, and
-    ///             the first point has its depth. Models, deformables with each other, boxes,
+    ///             the first point has its depth; where more than four corners carry and those of the
+    ///             last query stay, to 2^-14 of their extent. Models, deformables with each other, boxes,
     ///             convex bodies: as `contact_manifolds` of models, but a body in a closed model,
     ///             clear of its surface, is apart. A half-space with a body that has corners: up to
     ///             four of these. A model or deformable with a capsule: the capsule's ends, and the

@@ -2,8 +2,8 @@
 
 #include "clash/blocks_pair.h"
 #include "geometry/triangle_triangle_distance.h"
-#include "rigid/tolerance/overlap_within.h"
 #include "math/point_order.h"
+#include "rigid/tolerance/overlap_within.h"
 #include "rigid/tolerance/sheets_cross.h"
 
 #include <algorithm>

@@ -159,6 +159,11 @@ public:
     [[nodiscard]] SolidPlace of_pair() const override {
         const BodyGap gap =
             signed_gap_between(a_, b_, std::nextafter(margin_, HUGE_VAL), warm_start_);
+        if (gap.distance > margin_) { // then it has no points
+            SolidPlace none;
+            none.distance = HUGE_VAL;
+            return none;
+        }
         const Transform& frame = solid_.faces->world_from_solid;
         const auto to_solid = [&](const Vec3& p) {
             return pull_back(frame, p - Vec3{frame.m[9], frame.m[10], frame.m[11]});
@@ -346,7 +351,7 @@ void append_region_contacts(const BodiesInContact& bodies, double margin, PairWa
         double doubt = doubt_of(a, b);
         if (const auto rounding = add_solid_regions(a, b, margin, warm_start, regions))
             doubt += *rounding;
-        else
+        else if (!solid_of(a, b).faces || is_within(a, b, margin, warm_start))
             regions = surface_regions(a, b, margin, kept.manifolds);
         keep_within_margin(a, b, margin, doubt, warm_start, 0, regions);
         kept.placements = bodies.placements, kept.margin = margin;

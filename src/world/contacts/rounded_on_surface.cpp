@@ -135,22 +135,31 @@ private:
         return {centre + a, centre + b, depth, 0};
     }
 
-    /// The contact of the ball at an end, along the capsule's normal; none if the ball's own normal leads
-    /// another way.
+    /// The contact of an end, along the capsule's normal; none if the normal of the ball there leads another
+    /// way. The surface counts as flat beside the place that is nearest to the end.
     std::optional<ContactPoint> contact_of_end(std::size_t which, const Vec3& up,
                                                const Vec3& centre, bool solid_is_a) {
         const Vec3& end = ends_[which];
         double nearest_sq = HUGE_VAL;
-        Vec3 way;
+        Vec3 on_surface;
         for (const TriangleBelow& t : below_)
             if (const NearestOnTriangle near = nearest_on_triangle(end, t.corners);
                 near.distance_sq < nearest_sq)
-                nearest_sq = near.distance_sq, way = end - near.point;
-        const double distance = std::sqrt(nearest_sq), depth = radius_ - distance;
-        depth_of_end_[which] = std::max(depth, -margin_);
-        if (depth < -margin_ || !leads_same_way(normalized_or_zero(way), up))
+                nearest_sq = near.distance_sq, on_surface = near.point;
+        const Vec3 up_there = normalized_or_zero(end - on_surface);
+        depth_of_end_[which] = std::max(radius_ - std::sqrt(nearest_sq), -margin_);
+        if (!leads_same_way(up_there, up))
             return std::nullopt;
-        return point_below(end, up, depth, centre, solid_is_a);
+        // Below the higher end of a capsule that leans is its side, not the ball.
+        const Vec3 inwards = normalized_or_zero(ends_[1 - which] - end);
+        const double leans = std::min(dot(up, inwards), 0.0);
+        const Vec3 out = normalized_or_zero(up - leans * inwards);
+        const Vec3 on_solid = end - radius_ * out;
+        double depth = dot(up_there, on_surface - on_solid) / dot(up_there, up);
+        if (depth < -margin_ - kRoundingOfCore * size_ || out == Vec3{})
+            return std::nullopt;
+        depth = std::max(depth, -margin_);
+        return point_at(on_solid + depth * up, on_solid, depth, centre, solid_is_a);
     }
 
     /// The place of the axis that is deepest below the line between the depths of its ends, as over a ridge.

@@ -114,15 +114,15 @@ private:
         return split_where_hollow(memory_.meetings, memory_.part_of);
     }
 
-    /// The normal of a part that the solid clearly enters. None if it is in doubt.
-    [[nodiscard]] std::optional<Vec3> normal_of_overlap() const {
+    /// The normal of a part that the solid clearly enters. Zero if it is in doubt.
+    [[nodiscard]] Vec3 normal_of_overlap() const {
         Vec3 sum;
         double total = 0;
         for (const PatchTriangle* t : memory_.part)
             sum = sum + t->deep_area, total += length(t->deep_area);
         constexpr double kClear = 0.1;
         if (!(length(sum) > kClear * total))
-            return std::nullopt;
+            return {};
         const Vec3 direction = normalized_or_zero(sum);
         return snapped(direction, total);
     }
@@ -144,14 +144,18 @@ private:
                 dot(solid_.planes[best].normal, direction))
                 best = i;
         const Vec3& face = solid_.planes[best].normal;
-        return -dot(face, direction) > kCosOfCone && share_of_border(best) >= kLeastShare
+        const Border curve = border(best);
+        return -dot(face, direction) > kCosOfCone && curve.in_plane >= kLeastShare * curve.all
                    ? -face
                    : direction;
     }
 
-    /// How much of the curve where the surface enters the solid lies in one of its planes.
-    [[nodiscard]] double share_of_border(std::size_t plane) const {
-        double there = 0, all = 0;
+    /// The curve where the surface enters the solid: its length, and that in one of the planes.
+    struct Border {
+        double all = 0, in_plane = 0;
+    };
+    [[nodiscard]] Border border(std::size_t plane) const {
+        Border found;
         for (const PatchTriangle* t : memory_.part) {
             if (t->deep_area == Vec3{})
                 continue;
@@ -163,11 +167,12 @@ private:
                     continue;
                 const double size =
                     length(corners[k + 1 == corners.size() ? 0 : k + 1].at - corners[k].at);
-                all += size;
-                there += corners[k].side == ClippedTriangle::kFirstPlane + plane ? size : 0;
+                found.all += size;
+                found.in_plane +=
+                    corners[k].side == ClippedTriangle::kFirstPlane + plane ? size : 0;
             }
         }
-        return all > 0 ? there / all : 0;
+        return found;
     }
 
     /// The direction in which a triangle and the solid are farthest apart, of those across their faces:
@@ -197,27 +202,30 @@ private:
         const bool is_deep = std::any_of(memory_.part.begin(), memory_.part.end(),
                                          [](const auto* t) { return t->deep_area != Vec3{}; });
         if (is_deep) {
-            const std::optional<Vec3> normal = normal_of_overlap();
-            if (!normal)
+            // A thin part wholly inside, as the border of a plate, has areas that cancel out: the solid
+            // leaves it as the pair does.
+            // A whole component inside is not a place where the solid leaves it.
+            Vec3 normal = normal_of_overlap();
+            if (normal == Vec3{} && border(0).all > 0)
+                normal = nearest_.of_pair().up;
+            if (normal == Vec3{})
                 return false;
-            find_patch_points(solid_, memory_.part, *normal, solid_is_a_, limits_, memory_.points);
+            find_patch_points(solid_, memory_.part, normal, solid_is_a_, limits_, memory_.points);
             if (!(deepest_point() > 0))
                 return false;
-            write(*normal, manifolds);
+            write(normal, manifolds);
             return true;
         }
         const Separation nearest = nearest_separation();
-        if (nearest.gap > limits_.margin + limits_.rounding && !nearest.in_doubt)
+        if (nearest.in_doubt)
+            return add_nearest_place(manifolds);
+        if (nearest.gap > limits_.margin + limits_.rounding)
             return true;
-        if (nearest.gap <= limits_.margin + limits_.rounding) {
-            find_patch_points(solid_, memory_.part, nearest.up, solid_is_a_, limits_,
-                              memory_.points);
-            if (std::abs(deepest_point() + nearest.gap) <= kDoubt * limits_.rounding) {
-                write(nearest.up, manifolds);
-                return true;
-            }
-        }
-        return add_nearest_place(manifolds);
+        find_patch_points(solid_, memory_.part, nearest.up, solid_is_a_, limits_, memory_.points);
+        if (std::abs(deepest_point() + nearest.gap) > kDoubt * limits_.rounding)
+            return add_nearest_place(manifolds);
+        write(nearest.up, manifolds);
+        return true;
     }
 
     [[nodiscard]] double deepest_point() const {
@@ -232,6 +240,8 @@ private:
     bool add_nearest_place(std::vector<ModelManifold>& manifolds) {
         const double error = kDoubt * limits_.rounding;
         SolidPlace place = nearest_.of_pair();
+        if (place.distance > limits_.margin)
+            return true;
         const auto holds_place = [&](const PatchTriangle* t) {
             return nearest_on_triangle(place.on_surface, t->corners).distance_sq <= error * error;
         };
@@ -249,7 +259,13 @@ private:
         if (place.up == Vec3{} || std::abs(place.distance) > limits_.margin + error ||
             place.distance < -error)
             return false;
+        // Where they hardly touch, rounding may have turned the direction round: a convex solid lies on
+        // its side of a plane that it touches.
+        if (dot(place.up, solid_.middle - place.on_surface) < 0)
+            place.up = -place.up;
         find_patch_points(solid_, memory_.part, place.up, solid_is_a_, limits_, memory_.points);
+        std::erase_if(memory_.points,
+                      [&](const PatchPoint& p) { return p.depth > error - place.distance; });
         if (!(std::abs(deepest_point() + place.distance) <= error))
             add_place_of_features(place.on_surface, place.on_solid, place.up, memory_.part, solid_,
                                   solid_is_a_, memory_.points);

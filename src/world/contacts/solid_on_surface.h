@@ -22,7 +22,7 @@ struct SolidPlace {
 class NearestOfPair {
 public:
     virtual ~NearestOfPair() = default;
-    /// As World::within tells it.
+    /// As World::within tells it; infinitely far away if that is beyond the margin.
     [[nodiscard]] virtual SolidPlace of_pair() const = 0;
     /// That of a triangle of the surface, in the solid's frame; one at the bound if it is not nearer.
     [[nodiscard]] virtual SolidPlace of_triangle(const Triangle& triangle, double bound) const = 0;

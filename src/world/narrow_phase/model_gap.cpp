@@ -80,4 +80,19 @@ BodyGap model_gap(const Model& a, const Transform& world_from_a, const Model& b,
     return gap;
 }
 
+Vec3 mean_of(std::span<const Vec3> points) {
+    Vec3 sum;
+    for (const Vec3& p : points)
+        sum = sum + p;
+    return (1 / static_cast<double>(points.size())) * sum;
+}
+
+void turn_to_solid(BodyGap& gap, const Vec3& inside, double size) {
+    constexpr double kShallow = 0x1p-20;
+    if (std::abs(gap.distance) > kShallow * size || dot(gap.normal, inside - gap.point_b) >= 0)
+        return;
+    gap.normal = -gap.normal;
+    gap.point_b = gap.point_a + gap.distance * gap.normal;
+}
+
 } // namespace abut

@@ -5,6 +5,8 @@
 
 #include "world/narrow_phase/narrow_phase.h"
 
+#include <span>
+
 namespace abut {
 
 /// The gap of the surfaces of two models. The ids are not set.
@@ -26,5 +28,14 @@ inline void set_touching(BodyGap& gap, double clear) {
         gap.normal = {};
     gap.distance = 0;
 }
+
+/// The mean of some points. In: at least one.
+Vec3 mean_of(std::span<const Vec3> points);
+
+/// Turns the normal of a surface and a convex solid that hardly overlap: the solid lies on its side of a plane
+/// that it touches, but the direction between points of a border may have come out the wrong way.
+///
+/// In          inside: a point of the solid. size: of the solid.
+void turn_to_solid(BodyGap& gap, const Vec3& inside, double size);
 
 } // namespace abut

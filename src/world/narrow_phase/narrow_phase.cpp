@@ -182,6 +182,8 @@ BodyGap measure(const PlacedSurface& a, const PlacedConvex& b, double upper_boun
         set_touching(gap, kClearOfFaces * (sum_of_sizes(gap.point_b) + b.shape.solid.data().reach));
     if (is_in_open(gap, a.shape, depths))
         part_from_surface(gap, PlacedModel(a.shape, a.world), support_of(b));
+    turn_to_solid(gap, apply(b.world, mean_of(b.shape.solid.vertices())),
+                  b.shape.solid.data().reach);
     return gap;
 }
 
@@ -253,6 +255,7 @@ BodyGap measure(const PlacedSurface& a, const PlacedRounded& b, double upper_bou
             set_touching(gap, clear);
         if (is_in_open(gap, a.shape, depths))
             part_from_surface(gap, PlacedModel(a.shape, a.world), support_of(b));
+        turn_to_solid(gap, solid.centre, solid.half[0] + solid.half[1] + solid.half[2]);
         return gap;
     }
 }

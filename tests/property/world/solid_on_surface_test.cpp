@@ -254,5 +254,97 @@ TEST(SolidOnSurface, BallsAndCapsulesHaveTheGapsOfOtherQueries) {
     EXPECT_GT(ends, rounds / 50);
 }
 
+/// A table of two triangles at z = 0, without thickness.
+Model table() {
+    return Model(Mesh{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}});
+}
+const Box3 kUnitBox{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}};
+
+TEST(SolidOnSurface, ABoxThatOverhangsATableByRoundingStandsOnIt) {
+    Random random(20261202);
+    for (int round = 0; round < many(300); ++round) {
+        const double tilt = std::pow(10, random.uniform(-10, -4)),
+                     overlap = random.chance(0.2) ? 0 : std::pow(10, random.uniform(-16, -12));
+        const Pose pose{{random.uniform(0.6, 1.2), random.uniform(-1.2, 1.2), 0.5},
+                        {1, tilt * random.uniform(-1, 1), tilt * random.uniform(-1, 1), 0}};
+        World world;
+        world.add(table(), {});
+        const BodyId box = world.add(kUnitBox, pose);
+        // The lowest point over the table is at z = 0, less the overlap.
+        const std::vector<BodyGap> first = world.within(1);
+        ASSERT_EQ(first.size(), 1U);
+        Pose lower = pose;
+        lower.translation.z -= first[0].distance * first[0].normal.z + overlap;
+        world.move(box, lower);
+        for (const BodyGap& gap : world.within(1e-9))
+            EXPECT_GT(gap.normal.z, std::abs(gap.distance) <= 1e-12 ? 0.99 : -0.5)
+                << "round " << round << " tilt " << tilt << " gap " << gap.distance;
+        for (const ContactManifold& m : world.contact_manifolds(0.01)) {
+            EXPECT_GT(m.normal.z, 0.99) << "round " << round << " tilt " << tilt;
+            EXPECT_LE(m.points[0].depth, 4 * tilt + 1e-12);
+        }
+    }
+}
+
+TEST(SolidOnSurface, ASolidBesideTheWallsOfARoomIsInNoContact) {
+    const Model room(box_mesh({0, 0, 0}, {1, 1, 1}));
+    for (const double gap : {3e-17, 1e-15, 1e-13, 1e-12}) {
+        World world;
+        world.add(room, {});
+        world.add(Convex(box_mesh({-0.17, -0.15, -0.37}, {0.17, 0.15, 0.37})),
+                  {{0.17 + gap, 0.5, 0.5}, {0, 0, 0, 1}});
+        EXPECT_EQ(world.contact_manifolds().size(), world.collide().size()) << gap;
+    }
+}
+
+TEST(SolidOnSurface, ABoxBeyondATinyMarginIsInNoContact) {
+    for (const double margin : {1e-12, 1e-9, 1e-8, 1e-6})
+        for (const double factor : {0.9, 1.1, 1.3, 2.0})
+            for (const Vec3& way : {Vec3{1, 0, 1}, Vec3{1, 1, 1}, Vec3{0, 0, 1}}) {
+                World world;
+                world.add(table(), {});
+                const Vec3 corner{way.x > 0 ? 1.5 : 0, way.y > 0 ? 1.5 : 0, 0.5};
+                world.add(kUnitBox, {corner + (factor * margin / length(way)) * way, {1, 0, 0, 0}});
+                EXPECT_EQ(world.contact_manifolds(margin).size(), world.within(margin).size())
+                    << margin << ' ' << factor;
+            }
+}
+
+TEST(SolidOnSurface, ABoxOverTheBorderOfAThinPlateLeavesItUpwards) {
+    for (const double depth : {0.0005, 0.001, 0.01, 0.05})
+        for (const double margin : {0.0, 0.01, 0.5}) {
+            World world;
+            world.add(Model(box_mesh({-2, -2, -0.001}, {2, 2, 0})), {});
+            world.add(Box3{{-1, -0.75, -0.5}, {1, 0.75, 0.5}},
+                      {{-1.5, 0, 0.5 - depth}, {1, 0, 0, 0}});
+            const auto found = world.contact_manifolds(margin);
+            ASSERT_GE(found.size(), 1U);
+            EXPECT_EQ(found[0].normal, (Vec3{0, 0, 1})) << depth << ' ' << margin;
+            EXPECT_NEAR(found[0].points[0].depth, depth, 1e-12);
+            EXPECT_EQ(found[0].count, 4U);
+        }
+}
+
+TEST(SolidOnSurface, TheEndsOfALeaningCapsuleLieOnIt) {
+    for (const double angle : {0.05, 0.2, 0.5, 1.2, 1.5707}) {
+        World world;
+        world.add(table(), {});
+        const Capsule capsule{{{-0.5, 0, 0}, {0.5, 0, 0}}, 0.25};
+        const Pose pose{{0, 0, 0.24 + 0.5 * std::sin(angle)},
+                        {std::cos(angle / 2), 0, std::sin(angle / 2), 0}};
+        world.add(capsule, pose);
+        const auto found = world.contact_manifolds(1.5);
+        ASSERT_EQ(found.size(), 1U);
+        EXPECT_NEAR(found[0].points[0].depth, 0.01, 1e-12);
+        for (std::uint32_t i = 0; i < found[0].count; ++i) {
+            EXPECT_NEAR(distance_from_surface(capsule, pose, found[0].points[i].point_b), 0, 1e-9)
+                << angle;
+            EXPECT_NEAR(found[0].points[i].point_a.z, 0, 1e-12);
+            for (std::uint32_t k = 0; k < i; ++k)
+                EXPECT_GT(length(found[0].points[i].point_a - found[0].points[k].point_a), 1e-6);
+        }
+    }
+}
+
 } // namespace
 } // namespace abut::test
