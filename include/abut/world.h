@@ -265,14 +265,16 @@ public:
     ///
     /// Accuracy    for convex bodies, spheres, capsules, boxes: the normal is that of BodyGap, and
     ///             the first point has its depth; where more than four corners carry and those of the
-    ///             last query stay, to 2^-14 of their extent. Models, deformables with each other, boxes,
-    ///             convex bodies: as `contact_manifolds` of models, but a body in a closed model,
-    ///             clear of its surface, is apart. A half-space with a body that has corners: up to
-    ///             four of these. A model or deformable with a capsule: the capsule's ends, and the
-    ///             point of `penetration` if that is deeper. For all others that one point.
+    ///             last query stay, to 2^-14 of their extent. A box, a convex body or a closed convex
+    ///             model with a model or deformable: depths along the normal. Other models and
+    ///             deformables with each other: as `contact_manifolds` of models. A body in a closed
+    ///             model, clear of its surface, is apart. A half-space with a body that has corners: up to
+    ///             four of these. A model or deformable with a capsule: the capsule's ends, and
+    ///             the point of `penetration` if that is deeper, or a place between the ends that
+    ///             carries it. For all others that one point.
     /// Errors      Error{bad_argument} if the margin is negative or not finite.
     /// Cost        with a margin, a second broad phase, which is kept from step to step. Contacts
-    ///             of two models or deformables are kept while both stay in place.
+    ///             of a model or deformable are kept while both bodies stay in place.
     std::vector<ContactManifold> contact_manifolds(double margin = 0,
                                                    const Progress& progress = {});
     void contact_manifolds(std::vector<ContactManifold>& manifolds, double margin = 0,
