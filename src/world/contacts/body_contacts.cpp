@@ -157,6 +157,32 @@ public:
         : a_(a), b_(b), solid_(solid), margin_(margin), warm_start_(warm_start) {}
 
     [[nodiscard]] SolidPlace of_pair() const override {
+        if (!of_pair_)
+            of_pair_ = find();
+        return *of_pair_;
+    }
+    [[nodiscard]] SolidPlace of_triangle(const Triangle& triangle, double bound) const override {
+        if (!faces_) {
+            const PlacedBody& body = solid_.is_a ? a_ : b_;
+            const OffsetSurface surface = *triangles_of(body.shape);
+            // The frame of a box is that of its axes, not of the body.
+            faces_.emplace(surface.surface,
+                           compose(inverse(solid_.faces->world_from_solid),
+                                   compose(body.world_from_body, surface.body_from_surface)));
+        }
+        SolidPlace nearest;
+        nearest.distance = bound;
+        faces_->for_each_near_hull(triangle, bound, [&](std::uint32_t slot) {
+            const ClosestPoints here =
+                triangle_triangle_distance(triangle, faces_->world_slot(slot));
+            if (const double distance = std::sqrt(here.distance_sq); distance < nearest.distance)
+                nearest = {here.a, here.b, normalized_or_zero(here.b - here.a), distance};
+        });
+        return nearest;
+    }
+
+private:
+    [[nodiscard]] SolidPlace find() const {
         const BodyGap gap =
             signed_gap_between(a_, b_, std::nextafter(margin_, HUGE_VAL), warm_start_);
         if (gap.distance > margin_) { // then it has no points
@@ -172,30 +198,14 @@ public:
         return {to_solid(solid_.is_a ? gap.point_b : gap.point_a),
                 to_solid(solid_.is_a ? gap.point_a : gap.point_b), up, gap.distance};
     }
-    [[nodiscard]] SolidPlace of_triangle(const Triangle& triangle, double bound) const override {
-        const PlacedBody& body = solid_.is_a ? a_ : b_;
-        const OffsetSurface surface = *triangles_of(body.shape);
-        // The frame of a box is that of its axes, not of the body.
-        const Transform& frame = solid_.faces->world_from_solid;
-        Transform from_world = inverse(frame);
-        const PlacedModel faces(
-            surface.surface,
-            compose(from_world, compose(body.world_from_body, surface.body_from_surface)));
-        SolidPlace nearest;
-        nearest.distance = bound;
-        faces.for_each_near_hull(triangle, bound, [&](std::uint32_t slot) {
-            const ClosestPoints here = triangle_triangle_distance(triangle, faces.world_slot(slot));
-            if (const double distance = std::sqrt(here.distance_sq); distance < nearest.distance)
-                nearest = {here.a, here.b, normalized_or_zero(here.b - here.a), distance};
-        });
-        return nearest;
-    }
 
-private:
     const PlacedBody &a_, &b_;
     const SolidOfPair& solid_;
     double margin_;
     PairWarmStart& warm_start_;
+    // Both once they are needed.
+    mutable std::optional<SolidPlace> of_pair_;
+    mutable std::optional<PlacedModel> faces_; ///< of the solid, in its frame
 };
 
 /// The manifolds of a convex solid and a surface. Returns a bound of the rounding of their depths; none,

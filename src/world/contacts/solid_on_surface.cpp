@@ -1,5 +1,6 @@
 #include "world/contacts/solid_on_surface.h"
 
+#include "core/stop.h"
 #include "geometry/point_triangle_distance.h"
 #include "math/transform.h"
 #include "rigid/manifold/meeting_regions.h"
@@ -20,7 +21,7 @@ namespace {
 /// Memory that a thread uses again for its next pair.
 struct PatchMemory {
     SurfacePatch patch;
-    std::vector<const PatchTriangle*> region, part;
+    std::vector<const PatchTriangle*> by_region, region, part;
     std::vector<TriangleMeeting> meetings;
     std::vector<std::uint32_t> part_of;
     std::vector<PatchPoint> points;
@@ -73,12 +74,19 @@ public:
 
     /// Returns false if a region does not tell its normal.
     bool add_regions(std::vector<ModelManifold>& manifolds) {
-        const auto all = memory_.patch.triangles();
-        for (std::uint32_t r = 0; r < memory_.patch.regions(); ++r) {
-            memory_.region.clear();
-            for (const PatchTriangle& t : all)
-                if (t.region == r)
-                    memory_.region.push_back(&t);
+        auto& sorted = memory_.by_region;
+        sorted.clear();
+        for (const PatchTriangle& t : memory_.patch.triangles())
+            sorted.push_back(&t);
+        // Triangles lie in a row in memory, in the order of their slots.
+        std::sort(sorted.begin(), sorted.end(), [](const auto* s, const auto* t) {
+            return s->region != t->region ? s->region < t->region : s < t;
+        });
+        for (auto begin = sorted.begin(), end = begin; begin != sorted.end(); begin = end) {
+            poll_stop();
+            end = std::find_if(begin, sorted.end(),
+                               [&](const auto* t) { return t->region != (*begin)->region; });
+            memory_.region.assign(begin, end);
             const std::uint32_t parts = split();
             for (std::uint32_t k = 0; k < parts; ++k) {
                 memory_.part.clear();
@@ -203,8 +211,7 @@ private:
                                          [](const auto* t) { return t->deep_area != Vec3{}; });
         if (is_deep) {
             // A thin part wholly inside, as the border of a plate, has areas that cancel out: the solid
-            // leaves it as the pair does.
-            // A whole component inside is not a place where the solid leaves it.
+            // leaves it as the pair does. A whole component inside is no such part.
             Vec3 normal = normal_of_overlap();
             if (normal == Vec3{} && border(0).all > 0)
                 normal = nearest_.of_pair().up;

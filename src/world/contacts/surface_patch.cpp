@@ -1,5 +1,6 @@
 #include "world/contacts/surface_patch.h"
 
+#include "core/stop.h"
 #include "rigid/model/solid.h"
 
 #include <algorithm>
@@ -78,8 +79,10 @@ void SurfacePatch::collect(const ConvexFaces& solid, const PlacedModel& surface,
                                [&](std::uint32_t slot) { slots_.push_back(slot); });
     // The order in which a tree is traversed differs between processors.
     std::sort(slots_.begin(), slots_.end());
-    for (const std::uint32_t slot : slots_)
+    for (const std::uint32_t slot : slots_) {
+        poll_stop();
         add(solid, surface, slot, facing, margin, rounding);
+    }
     connect();
 }
 
