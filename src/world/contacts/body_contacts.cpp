@@ -2,6 +2,7 @@
 
 #include "convex/body/convex_data.h"
 #include "convex/hull/placed_polytope.h"
+#include "core/borrowed.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "math/transform.h"
 #include "math/vector.h"
@@ -356,7 +357,9 @@ void append_region_contacts(const BodiesInContact& bodies, double margin, PairWa
     if (kept.placements != bodies.placements || kept.margin != margin) {
         if (!triangles_of(a.shape) || !triangles_of(b.shape))
             return;
-        static thread_local std::vector<ModelManifold> regions; // its memory is used again
+        static thread_local std::vector<ModelManifold> memory;
+        Borrowed<std::vector<ModelManifold>> borrowed(memory);
+        std::vector<ModelManifold>& regions = *borrowed;
         regions.clear();
         double doubt = doubt_of(a, b);
         if (const auto rounding = add_solid_regions(a, b, margin, warm_start, regions))

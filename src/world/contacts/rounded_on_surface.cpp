@@ -1,5 +1,6 @@
 #include "world/contacts/rounded_on_surface.h"
 
+#include "core/borrowed.h"
 #include "geometry/supporting_normal.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "rigid/model/placed_model.h"
@@ -202,8 +203,9 @@ private:
 std::optional<RoundedContact> rounded_on_surface(const RoundedBox& solid, const Model& surface,
                                                  const Transform& world_from_surface,
                                                  bool solid_is_a, double margin) {
-    static thread_local std::vector<TriangleBelow> memory;
-    return RoundedOnSurface(solid, surface, world_from_surface, margin, memory)
+    static thread_local std::vector<TriangleBelow> kept;
+    Borrowed<std::vector<TriangleBelow>> memory(kept);
+    return RoundedOnSurface(solid, surface, world_from_surface, margin, *memory)
         .find(solid.centre, solid_is_a);
 }
 

@@ -1,5 +1,6 @@
 #include "world/contacts/solid_on_surface.h"
 
+#include "core/borrowed.h"
 #include "core/stop.h"
 #include "geometry/point_triangle_distance.h"
 #include "math/transform.h"
@@ -331,7 +332,9 @@ std::optional<double> add_solid_on_surface(const ConvexFaces& solid, const Model
                                            double margin, std::span<const std::uint64_t> last,
                                            const NearestOfPair& nearest,
                                            std::vector<ModelManifold>& manifolds) {
-    static thread_local PatchMemory memory;
+    static thread_local PatchMemory kept;
+    Borrowed<PatchMemory> borrowed(kept);
+    PatchMemory& memory = *borrowed;
     const Transform solid_from_surface = solid_from(solid, world_from_surface);
     const PlacedModel placed(surface, solid_from_surface);
     if (placed.world() != solid_from_surface)
