@@ -563,6 +563,67 @@ class BodyImpact:
     def status(self) -> Status:
         """Status"""
 
+class BodyRayHit:
+    """Where a ray first meets a body. True if it meets one."""
+    dtype: np.dtype[Any]
+    @property
+    def meet(self) -> bool:
+        """if False, nothing else is set"""
+    @property
+    def body(self) -> int:
+        """body"""
+    @property
+    def t(self) -> float:
+        """the ray's parameter; inf if it meets nothing"""
+    @property
+    def point(self) -> NDArray[np.float64]:
+        """world frame"""
+    @property
+    def normal(self) -> NDArray[np.float64]:
+        """unit vector out of the body; of a surface, towards the ray's origin; zero if the ray begins inside a solid"""
+    @property
+    def triangle(self) -> int:
+        """of a model or deformable; else 0"""
+    def __bool__(self) -> bool: ...
+
+class BodySweepHit:
+    """The first body that a moving shape meets. True if it meets one."""
+    dtype: np.dtype[Any]
+    @property
+    def meet(self) -> bool:
+        """if False, only the time is set: 1"""
+    @property
+    def body(self) -> int:
+        """body"""
+    @property
+    def time(self) -> float:
+        """in [0, 1], never later than the first contact"""
+    @property
+    def contact_time(self) -> float:
+        """a time at which they are in contact"""
+    @property
+    def gap(self) -> float:
+        """length: how far apart they are at `time`, at most"""
+    @property
+    def point_a(self) -> NDArray[np.float64]:
+        """on the body at `time`"""
+    @property
+    def point_b(self) -> NDArray[np.float64]:
+        """on the shape at `time`"""
+    @property
+    def normal(self) -> NDArray[np.float64]:
+        """unit vector from the body to the shape"""
+    @property
+    def triangle_a(self) -> int:
+        """of a model; else 0"""
+    @property
+    def triangle_b(self) -> int:
+        """of a model; else 0"""
+    @property
+    def status(self) -> Status:
+        """Status"""
+    def __bool__(self) -> bool: ...
+
 class Box3:
     """A closed axis-aligned box, from two points of shape (3,). Without
     arguments it is empty.
@@ -4485,6 +4546,31 @@ class World:
         """The contacts of all pairs at most `margin` apart, a length: for each region a normal and up to four points. A
         record array of ContactManifold. A body inside a closed model, clear of its surface, is apart from it by the
         distance of that surface. Error (bad_argument) if the margin is negative.
+        """
+    def first_hit(self, origin: Ray | ArrayLike, direction: ArrayLike | None = ..., t_min: float = ..., t_max: float = ..., *, groups: int = ..., filter: Callable[[int], bool] | None = ..., progress: _Progress = ...) -> BodyRayHit:
+        """The first body that a ray meets: a BodyRayHit. Solids include their inside; models and deformables are
+        surfaces.
+
+        origin     a Ray, or its origin, shape (3,)
+        direction  array of shape (3,), if the origin is no Ray
+        groups     bits: bodies that belong to one of these groups
+        filter     function of a body that tells whether it is asked about
+        """
+    def all_hits(self, origin: Ray | ArrayLike, direction: ArrayLike | None = ..., t_min: float = ..., t_max: float = ..., *, groups: int = ..., filter: Callable[[int], bool] | None = ..., progress: _Progress = ...) -> np.recarray[Any, Any]:
+        """The first point of each body that a ray meets, sorted along it: a record array of BodyRayHit. Otherwise as
+        first_hit.
+        """
+    def overlaps(self, shape: Model | Convex | Sphere | Capsule | Box3 | Cylinder | Cone | Ellipsoid | HalfSpace, pose: _Poses = ..., *, groups: int = ..., filter: Callable[[int], bool] | None = ..., progress: _Progress = ...) -> NDArray[Any]:
+        """The bodies that share a point with a shape, sorted: int64 array of shape (n,). As collide would tell it of a
+        body in that place.
+
+        shape   a Model, Convex, Sphere, Capsule, Box3, Cylinder, Cone, Ellipsoid or HalfSpace
+        groups  bits: bodies that belong to one of these groups
+        filter  function of a body that tells whether it is asked about
+        """
+    def sweep(self, shape: Model | Convex | Sphere | Capsule | Box3 | Cylinder | Cone | Ellipsoid | HalfSpace, motion: Motion, *, groups: int = ..., filter: Callable[[int], bool] | None = ..., absolute_error: float | None = ..., max_steps: int | None = ..., progress: _Progress = ...) -> BodySweepHit:
+        """The first body that a moving shape meets, where the bodies stay: a BodySweepHit. Otherwise as overlaps and
+        time_of_impact.
         """
     def set_speed(self, body: int, velocity: ArrayLike = ..., acceleration: ArrayLike = ..., acceleration_bound: float = ..., angular_speed: float = ..., angular_acceleration: float = ..., angular_velocity: ArrayLike = ...) -> None:
         """Bounds on the body's motion from its place and the time of the last `advance`. Call it before `move`.

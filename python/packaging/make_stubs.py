@@ -100,6 +100,9 @@ OWN_PARAMETERS = {
     "Walker.set_mode": {"mode": "WalkerMode | str"}, "Walk.first_hit": {"origin": "Ray | ArrayLike"},
     "build_levels": {"store": "_Path"}, "Probe": {"shape": "Model | Convex | Sphere | Capsule | Box3"}, "World.move": {"body": "_Bodies"},
     "World.add": {"shape": "Model | Convex | Sphere | Capsule | Box3 | Cylinder | Cone | Ellipsoid | HalfSpace | Deformable"},
+    "World.first_hit": {"origin": "Ray | ArrayLike", "filter": "Callable[[int], bool] | None"}, "World.all_hits": {"origin": "Ray | ArrayLike", "filter": "Callable[[int], bool] | None"},
+    "World.overlaps": {"shape": "Model | Convex | Sphere | Capsule | Box3 | Cylinder | Cone | Ellipsoid | HalfSpace", "filter": "Callable[[int], bool] | None"},
+    "World.sweep": {"shape": "Model | Convex | Sphere | Capsule | Box3 | Cylinder | Cone | Ellipsoid | HalfSpace", "filter": "Callable[[int], bool] | None", "motion": "Motion"},
     "Walk.distance": {"probe": "int | Probe | Model | Convex | Sphere | Capsule | Box3"},
     "Walk.within": {"probe": "int | Probe | Model | Convex | Sphere | Capsule | Box3"},
     "Walk.collide": {"probe": "int | Probe | Model | Convex | Sphere | Capsule | Box3"},
@@ -212,6 +215,7 @@ RETURNS = {
     "Renderer.visible_samples": "NDArray[np.uint64]", "on_screen": "NDArray[np.float64] | None",
     "World.penetration": "np.recarray[Any, Any]", "World.within": "np.recarray[Any, Any]",
     "World.contact_manifolds": "np.recarray[Any, Any]",
+    "World.first_hit": "BodyRayHit", "World.all_hits": "np.recarray[Any, Any]", "World.overlaps": "NDArray[Any]", "World.sweep": "BodySweepHit",
     "World.time_of_impact": "np.recarray[Any, Any]", "read_elementary_queries": "tuple[NDArray[Any], NDArray[Any], NDArray[Any], NDArray[Any]]",
 }
 PROPERTIES = {

@@ -16,7 +16,7 @@ HEADERS = sorted(path for path in (pathlib.Path(__file__).resolve().parents[2] /
 OTHER_TYPES = {
     "Vec3": "array", "Transform": "matrix", "BodyId": "int", "WalkPart": "int", "IndexPair": "array", "TrianglePair": "array",
     "BodyPair": "array", "PiecePair": "array", "VertexPair": "array", "Placement": "poses", "MotionPair": "motions",
-    "BodyMotion": "dict", "SpeedBounds": "keywords", "MarkChanges": "keywords", "EarlierGroup": "within a store", "WalkQuery": "keywords", "Progress": "function",
+    "BodyMotion": "dict", "RigidShape": "shapes", "BodyQuery": "keywords", "SpeedBounds": "keywords", "MarkChanges": "keywords", "EarlierGroup": "within a store", "WalkQuery": "keywords", "Progress": "function",
     "ElementaryPair": "arrays", "ElementaryQueries": "arrays", "StoreClashReport": "ClashReport", "WalkAnswer": "its members",
     "OffscreenContext": "within Renderer and PictureMaker", "Picture": "array", "ChunkVertex": "arrays of ViewChunk", "ChunkUpload": "dict of ViewFrame", "DifferencePolytope": "within ConvexWarmStart",
     "RobotQuery": "keywords", "Configurations": "arrays",
@@ -35,7 +35,7 @@ OTHER_MEMBERS = {
     "OrientedBox": {"world_from_box": "pose"}, "Intersection": {"corners": "arrays of Contacts.segments"},
     "ConvexWarmStart": {"kind": "inner", "pairs": "inner", "deepest": "inner"},
     "Properties": {"first": "of", "entries": "of", "find": "names"}, "PiecesWarmStart": None, "WarmStart": None, "Impacts": {}, "Impact": {},
-    "BodyImpact": {"impact": "its members"}, "Store": {"file": "inner"}, "Box3": {}, "ContactRegion": {},
+    "BodyImpact": {"impact": "its members"}, "BodySweepHit": {"impact": "its members"}, "Store": {"file": "inner"}, "Box3": {}, "ContactRegion": {},
     "PictureMaker": {}, "Renderer": {"draw": "picture", "end": "end_picture: there is no framebuffer of the caller"},
     "ViewChunk": {"lower": "vertices", "step": "vertices", "indices": "faces"},
 }

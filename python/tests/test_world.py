@@ -191,3 +191,27 @@ def test_every_query_updates_the_pairs_first():
             assert len(world.pairs()) == 0 and world.ended().tolist() == [[int(stays), int(body)]], name
         assert largest <= 4, name  # places of removed bodies are used again
         assert len(world) == 1
+
+
+def test_rays_overlaps_and_sweeps():
+    world = abut.World()
+    ball = world.add(abut.Sphere([0, 0, 0], 1), ((0, 0, 5), (1, 0, 0, 0)), groups=2)
+    box = world.add(abut.Box3([-1, -1, -1], [1, 1, 1]), ((0, 0, 9), (1, 0, 0, 0)))
+    hit = world.first_hit([0, 0, 0], [0, 0, 2])
+    assert hit and hit.body == ball and hit.t == 2 and list(hit.normal) == [0, 0, -1]
+    assert world.first_hit(abut.Ray([0, 0, 0], [0, 0, 2]), groups=1).body == box
+    assert world.first_hit([0, 0, 0], [0, 0, 2], filter=lambda body: body != ball).body == box
+    assert not world.first_hit([0, 0, 0], [1, 0, 0])
+    assert [b for b in world.all_hits([0, 0, 0], [0, 0, 1]).body] == [ball, box]
+    place = ((0, 0, 7), (1, 0, 0, 0))
+    assert list(world.overlaps(abut.Sphere([0, 0, 0], 1), place)) == [ball, box]
+    assert list(world.overlaps(abut.Sphere([0, 0, 0], 0.5), place)) == []
+    start = abut.Pose((0, 0, 0), (1, 0, 0, 0))
+    swept = world.sweep(abut.Sphere([0, 0, 0], 0.5), abut.Motion(start, velocity=(0, 0, 7)))
+    assert swept and swept.body == ball and abs(swept.time - 0.5) < 1e-3
+    with pytest.raises(ZeroDivisionError):
+        world.first_hit([0, 0, 0], [0, 0, 1], filter=lambda body: 1 // 0)
+    with pytest.raises(abut.Error):
+        world.first_hit([0, 0, 0], [0, 0, 0])
+    with pytest.raises(TypeError):
+        world.overlaps("a cup")

@@ -69,6 +69,11 @@ inline std::unique_ptr<Callback> body_callback(const py::object& filter) {
     return std::make_unique<Callback>(filter);
 }
 
+class Bodies;
+void bind_question_results(py::module_& module);
+/// Adds the rays, overlaps and sweeps of a World.
+void add_world_questions(py::class_<Bodies>& type);
+
 /// A world that keeps its deformables, and is used by one thread at a time.
 class Bodies {
 public:

@@ -377,11 +377,13 @@ void add_world_estimates(py::class_<Bodies>& type) {
 
 void bind_world(py::module_& module) {
     bind_world_results(module);
+    bind_question_results(module);
     auto world = world_class(module);
     add_world_state(world);
     add_world_pairs(world);
     add_world_queries(world);
     add_world_contacts(world);
+    add_world_questions(world);
     add_world_schedule(world);
     add_world_estimates(world);
 }
