@@ -306,8 +306,8 @@ public:
     /// Accuracy    of surfaces as `first_hit` of a model: exact. Of solids to rounding.
     /// Errors      of this function and the next three: Error{bad_argument} as `first_hit` of a model, and
     ///             as `time_of_impact`; Error{interrupted} if the stop flag is set.
-    /// Cost        of these four, the first one after a change builds a tree of all bodies, about 100 ns
-    ///             each. Then that of the bodies whose boxes are met.
+    /// Cost        of these four, the first one after a change builds a tree of all bodies. Then that of
+    ///             the bodies whose boxes are met.
     BodyRayHit first_hit(const Ray& ray, const BodyQuery& query = {});
     /// Finds the first point of each body that a ray meets, sorted by t, then by body.
     std::vector<BodyRayHit> all_hits(const Ray& ray, const BodyQuery& query = {});
@@ -315,7 +315,7 @@ public:
     std::vector<BodyId> overlaps(const RigidShape& shape, const Pose& pose,
                                  const BodyQuery& query = {});
     /// Finds the first body that a moving shape meets, where the bodies stay: of several at the same time,
-    /// the one of lowest index. Accuracy as `time_of_impact`.
+    /// the one of lowest index. A deformable stays as it is at the start of its step. Accuracy as `time_of_impact`.
     BodySweepHit sweep(const RigidShape& shape, const Motion& motion, const BodyQuery& query = {},
                        const ImpactOptions& options = {});
 

@@ -15,11 +15,15 @@ namespace abut {
 class DisjointSets {
 public:
     /// Starts with one set for each number.
-    explicit DisjointSets(std::size_t count) : parent_(count) {
-        std::iota(parent_.begin(), parent_.end(), 0U);
-    }
+    explicit DisjointSets(std::size_t count = 0) { reset(count); }
     /// Starts with the sets that the parents describe. In: parents[i] <= i.
     explicit DisjointSets(std::vector<std::uint32_t> parents) : parent_(std::move(parents)) {}
+
+    /// Starts anew with one set for each number. Uses the memory again.
+    void reset(std::size_t count) {
+        parent_.resize(count);
+        std::iota(parent_.begin(), parent_.end(), 0U);
+    }
 
     std::uint32_t root(std::uint32_t i) {
         while (parent_[i] != i)

@@ -20,8 +20,8 @@
 
 namespace abut {
 
-/// Whether there is one thread only. Another thread may change that at any time, so it says only what is
-/// best.
+/// Returns whether work has one thread only. Another thread may change that at any time, so the answer says
+/// what is best, and nothing may depend on it.
 inline bool is_sequential() {
 #ifdef __SANITIZE_THREAD__
     return false;

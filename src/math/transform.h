@@ -44,6 +44,12 @@ inline Transform translated(const Transform& t, const Vec3& shift) {
     return moved;
 }
 
+/// Whether a transform turns right-handed axes into left-handed ones.
+inline bool is_mirroring(const Transform& t) {
+    const auto& m = t.m;
+    return dot(cross(Vec3{m[0], m[1], m[2]}, Vec3{m[3], m[4], m[5]}), Vec3{m[6], m[7], m[8]}) < 0;
+}
+
 /// The transform that applies b, then a. It is rounded, so use it for bounds only.
 Transform compose(const Transform& a, const Transform& b);
 

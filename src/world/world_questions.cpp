@@ -3,7 +3,9 @@
 
 #include "core/arguments.h"
 #include "core/stop.h"
+#include "math/vector.h"
 #include "rigid/shapes/shape_arguments.h"
+#include "world/narrow_phase/contact_rounding.h"
 #include "world/narrow_phase/world_data.h"
 #include "world/queries/body_tree.h"
 #include "world/queries/ray_body.h"
@@ -11,7 +13,8 @@
 #include "world/schedule/body_impact.h"
 
 #include <algorithm>
-#include <utility>
+#include <optional>
+#include <variant>
 
 namespace abut {
 
@@ -23,7 +26,8 @@ bool is_asked(const WorldData& data, std::uint32_t index, const BodyQuery& query
            (!query.filter || query.filter(data.id_of(index)));
 }
 
-/// Whether a hit comes before another: earlier, or at the same place of a body of lower index.
+/// Returns whether a hit comes before another one: at a smaller parameter, or at the same one and of a body
+/// of lower index.
 bool comes_first(const BodyRayHit& hit, const BodyRayHit& other) {
     return hit.t != other.t ? hit.t < other.t : hit.body < other.body;
 }
@@ -81,14 +85,16 @@ std::vector<BodyId> World::overlaps(const RigidShape& shape, const Pose& pose,
     const RigidShapeData& asked = shape.data();
     const Transform world_from_shape = pose;
     std::vector<BodyId> found;
-    tree().for_each_overlap(
-        bounds_of(asked.shape, asked.own_bounds, world_from_shape), [&](std::uint32_t index) {
-            poll_stop();
-            PairWarmStart warm_start;
-            if (is_asked(*data_, index, query) &&
-                touch(data_->placed(index), {asked.shape, world_from_shape}, warm_start))
-                found.push_back(data_->id_of(index));
-        });
+    // As large as the box of a body, so that what touches by rounding is found.
+    const Box3 box = grown(bounds_of(asked.shape, asked.own_bounds, world_from_shape),
+                           contact_share(asked.shape, asked.own_bounds));
+    tree().for_each_overlap(box, [&](std::uint32_t index) {
+        poll_stop();
+        PairWarmStart warm_start;
+        if (is_asked(*data_, index, query) &&
+            touch(data_->placed(index), {asked.shape, world_from_shape}, warm_start))
+            found.push_back(data_->id_of(index));
+    });
     std::sort(found.begin(), found.end());
     return found;
 }
@@ -111,7 +117,13 @@ BodySweepHit World::sweep(const RigidShape& shape, const Motion& motion, const B
         poll_stop();
         const Body& body = data_->bodies()[index];
         const Motion stays = Motion::fixed(body.pose);
-        const Impact impact = body_impact({body.shape, body.own_bounds, stays}, moving, options);
+        // A deformable would move by its own step.
+        const auto* deformable = std::get_if<DeformableShape>(&body.shape);
+        std::optional<BodyShape> still;
+        if (deformable != nullptr)
+            still.emplace(deformable->snapshot->model());
+        const Impact impact =
+            body_impact({still ? *still : body.shape, body.own_bounds, stays}, moving, options);
         if (impact.meet && (!first.meet || impact.time < first.impact.time))
             first = {true, data_->id_of(index), impact};
     }

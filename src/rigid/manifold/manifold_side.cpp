@@ -1,6 +1,7 @@
 #include "rigid/manifold/manifold_side.h"
 
 #include "math/predicates.h"
+#include "math/transform.h"
 #include "tree/traverse_one.h"
 
 #include <algorithm>
@@ -9,11 +10,6 @@
 namespace abut {
 
 namespace {
-
-bool is_mirroring(const Transform& t) {
-    const auto& m = t.m;
-    return dot(cross({m[0], m[1], m[2]}, {m[3], m[4], m[5]}), {m[6], m[7], m[8]}) < 0;
-}
 
 /// +1 if the line passes a triangle against its normal, -1 along it, 0 if it misses the triangle or
 /// lies in its plane.

@@ -7,8 +7,7 @@ namespace abut {
 PlacedSolid::PlacedSolid(const Model& model, const Solid& solid, const Transform& world_from_model,
                          const std::optional<Vec3>& origin)
     : model_(model, world_from_model, origin), solid_(solid) {
-    const auto& m = model_.world().m;
-    mirrored_ = dot(cross({m[0], m[1], m[2]}, {m[3], m[4], m[5]}), {m[6], m[7], m[8]}) < 0;
+    mirrored_ = is_mirroring(model_.world());
     if (solid.may_overlap || solid.has_sheets)
         boundary_ = PlacedBoundary(model.data().boundary(), world_from_model, origin);
 }

@@ -142,11 +142,6 @@ private:
     std::uint32_t base_ = static_cast<std::uint32_t>(to_.vertices.size());
 };
 
-bool mirrors(const Transform& t) {
-    const auto& m = t.m;
-    return dot(cross({m[0], m[1], m[2]}, {m[3], m[4], m[5]}), {m[6], m[7], m[8]}) < 0;
-}
-
 } // namespace
 
 void add_shaded(const Mesh& mesh, const Transform& frame_from_mesh, std::uint32_t part,
@@ -162,7 +157,7 @@ void add_shaded(const Mesh& mesh, std::span<const std::uint32_t> chosen,
     placed.reserve(mesh.positions.size());
     for (const Vec3& p : mesh.positions)
         placed.push_back(apply(frame_from_mesh, p));
-    const bool is_mirrored = mirrors(frame_from_mesh);
+    const bool is_mirrored = is_mirroring(frame_from_mesh);
     const std::vector<std::uint32_t> position_of =
         first_equal_positions(std::span<const Vec3>(placed));
     const CornerNormals normals(mesh, placed, position_of, is_mirrored ? -1 : 1);

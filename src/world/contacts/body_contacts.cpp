@@ -140,7 +140,7 @@ struct SolidOfPair {
     std::optional<ConvexFaces> faces;
     bool is_a = false;
 };
-/// Of two, the smaller one; of two as large, a.
+/// Returns the convex solid. If both bodies are one, the smaller; if they are as large, a.
 SolidOfPair solid_of(const PlacedBody& a, const PlacedBody& b) {
     SolidOfPair of_a, of_b;
     if (is_surface(b.shape))
@@ -211,13 +211,13 @@ private:
 
 /// The manifolds of a convex solid and a surface. Returns a bound of the rounding of their depths; none,
 /// and adds nothing, if pairs of triangles have to tell them.
-std::optional<double> add_solid_regions(const PlacedBody& a, const PlacedBody& b, double margin,
+///
+/// In          a solid with faces.
+std::optional<double> add_solid_regions(const PlacedBody& a, const PlacedBody& b,
+                                        const SolidOfPair& solid, double margin,
                                         PairWarmStart& warm_start,
                                         std::vector<ModelManifold>& regions) {
     const std::vector<ModelManifold>& last = warm_start.regions.manifolds;
-    const SolidOfPair solid = solid_of(a, b);
-    if (!solid.faces)
-        return std::nullopt;
     const PlacedBody& ground = solid.is_a ? b : a;
     boost::container::small_vector<std::uint64_t, 8> names;
     for (const ModelManifold& m : last)
@@ -362,9 +362,13 @@ void append_region_contacts(const BodiesInContact& bodies, double margin, PairWa
         std::vector<ModelManifold>& regions = *borrowed;
         regions.clear();
         double doubt = doubt_of(a, b);
-        if (const auto rounding = add_solid_regions(a, b, margin, warm_start, regions))
+        const SolidOfPair solid = solid_of(a, b);
+        std::optional<double> rounding;
+        if (solid.faces)
+            rounding = add_solid_regions(a, b, solid, margin, warm_start, regions);
+        if (rounding)
             doubt += *rounding;
-        else if (!solid_of(a, b).faces || is_within(a, b, margin, warm_start))
+        else if (!solid.faces || is_within(a, b, margin, warm_start))
             regions = surface_regions(a, b, margin, kept.manifolds);
         keep_within_margin(a, b, margin, doubt, warm_start, 0, regions);
         kept.placements = bodies.placements, kept.margin = margin;

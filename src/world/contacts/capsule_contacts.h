@@ -16,7 +16,7 @@ namespace abut {
 /// Names of the points of a capsule's contact with a surface.
 enum class CapsulePoint : std::uint8_t { middle = 0, end_a = 1, end_b = 2 };
 
-/// Whether the normal of a ball at an end is within 26 degrees of the capsule's.
+/// Returns whether the normal of a ball at an end is within 26 degrees of the capsule's.
 inline bool leads_same_way(const Vec3& normal_of_end, const Vec3& normal) {
     constexpr double kCosOfSameWay = 0.9;
     return dot(normal_of_end, normal) >= kCosOfSameWay;

@@ -58,12 +58,9 @@ std::optional<ConvexFaces> faces_of(const ConvexShape& convex, const Transform& 
     for (const Vec3& v : vertices)
         faces.reach = std::max(faces.reach, length(v - faces.middle));
     for (std::uint32_t f = 0; f < table.size(); ++f) {
-        double offset = -HUGE_VAL;
-        for (const FaceTable::Corner& corner : table.corners(f))
-            offset = std::max(offset, dot(table.normal(f), vertices[corner.vertex]));
-        if (!(offset - dot(table.normal(f), faces.middle) > kThin * faces.reach))
+        if (!(table.offset(f) - dot(table.normal(f), faces.middle) > kThin * faces.reach))
             return std::nullopt;
-        faces.planes.push_back({table.normal(f), offset});
+        faces.planes.push_back({table.normal(f), table.offset(f)});
     }
     faces.numbers.resize(vertices.size());
     std::iota(faces.numbers.begin(), faces.numbers.end(), 0U);
@@ -76,8 +73,7 @@ std::optional<ConvexFaces> faces_of(const Model& model, const Transform& world_f
         return std::nullopt;
     ConvexFaces faces;
     faces.world_from_solid = world_from_body;
-    for (const ConvexSurface::Plane& plane : surface->planes)
-        faces.planes.push_back({plane.normal, plane.offset});
+    faces.planes.assign(surface->planes.begin(), surface->planes.end());
     faces.vertices.assign(surface->corners.begin(), surface->corners.end());
     faces.numbers.assign(surface->vertices.begin(), surface->vertices.end());
     faces.middle = surface->middle, faces.reach = surface->reach;

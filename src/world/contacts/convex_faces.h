@@ -3,6 +3,7 @@
 #include <abut/types.h>
 
 #include "math/vector.h"
+#include "rigid/model/convex_surface.h"
 #include "world/narrow_phase/body.h"
 
 #include <boost/container/small_vector.hpp>
@@ -14,10 +15,7 @@ namespace abut {
 /// A convex solid as the common part of half-spaces, in a frame of its own.
 // NOLINTNEXTLINE(bugprone-exception-escape): its move fails only for lack of memory
 struct ConvexFaces {
-    struct Plane {
-        Vec3 normal;       ///< outward, of unit length
-        double offset = 0; ///< dot(normal, x) is at most this in the solid
-    };
+    using Plane = ConvexSurface::Plane;
     boost::container::small_vector<Plane, 24> planes;
     boost::container::small_vector<Vec3, 32> vertices;
     boost::container::small_vector<std::uint32_t, 32> numbers; ///< of the vertices in the body

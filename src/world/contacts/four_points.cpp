@@ -47,14 +47,14 @@ private:
         const RegionPoint& first = points_[chosen_[0]];
         take([&](const RegionPoint& p) {
             const double x = p.x - first.x, y = p.y - first.y;
-            return loyal(p, loyal(p, x * x + y * y)); // of a square
+            return loyalty(p) * loyalty(p) * (x * x + y * y);
         });
         const RegionPoint& second = points_[chosen_[1]];
         const auto left = [&](const RegionPoint& p) {
             return (second.x - first.x) * (p.y - first.y) - (second.y - first.y) * (p.x - first.x);
         };
-        take([&](const RegionPoint& p) { return loyal(p, left(p)); });
-        take([&](const RegionPoint& p) { return loyal(p, -left(p)); });
+        take([&](const RegionPoint& p) { return (left(p) > 0 ? loyalty(p) : 1) * left(p); });
+        take([&](const RegionPoint& p) { return (left(p) < 0 ? loyalty(p) : 1) * -left(p); });
     }
     /// The four points of the last step, if all are there and one of them is deep enough.
     [[nodiscard]] std::optional<Four> those_of_last(double as_deep) const {
@@ -99,8 +99,8 @@ private:
         return static_cast<std::size_t>(std::find(last_.begin(), last_.end(), p.feature) -
                                         last_.begin());
     }
-    [[nodiscard]] double loyal(const RegionPoint& p, double size) const {
-        return size > 0 && place_in_last(p) < last_.size() ? kLoyalty * size : size;
+    [[nodiscard]] double loyalty(const RegionPoint& p) const {
+        return place_in_last(p) < last_.size() ? kLoyalty : 1;
     }
 
     std::span<const RegionPoint> points_;

@@ -30,7 +30,7 @@ class LowerSide {
 public:
     struct Slope {
         std::uint32_t plane;
-        double up; ///< the normal along the direction
+        double up; ///< the part of its normal along the direction
     };
 
     LowerSide(const ConvexFaces& solid, const Vec3& up, double rounding)
@@ -65,7 +65,7 @@ public:
             leaves = std::min(leaves, height(s, p));
         return enters <= leaves + 4 * rounding_ ? std::optional(enters) : std::nullopt;
     }
-    /// Whether a vertex lies on the lower side.
+    /// Returns whether a vertex lies on the lower side.
     [[nodiscard]] bool holds(const Vec3& vertex) const {
         return std::any_of(lower_.begin(), lower_.end(),
                            [&](const Slope& s) { return outside(s, vertex) >= -4 * rounding_; });
@@ -117,7 +117,9 @@ public:
 private:
     void see() {
         for (const PatchTriangle* t : part_) {
-            if (!(dot(t->normal, up_) > 0x1p-20))
+            // The height over a triangle that stands on edge would be known too badly.
+            constexpr double kOnEdge = 0x1p-20;
+            if (!(dot(t->normal, up_) > kOnEdge))
                 continue;
             SeenTriangle s{};
             s.triangle = t;
@@ -218,9 +220,7 @@ private:
                       limits_.margin + limits_.rounding - lower_.height(low, q), low.plane, true);
         if (span.is_empty())
             return;
-        const std::uint64_t edge = std::uint64_t{std::min(t.vertices[k], t.vertices[(k + 1U) % 3])}
-                                       << 32U |
-                                   std::max(t.vertices[k], t.vertices[(k + 1U) % 3]);
+        const std::uint64_t edge = edge_key(t.vertices[k], t.vertices[(k + 1U) % 3]);
         const auto vertex = [&](std::uint32_t v) {
             return solid_is_a_ ? point_name::vertex_b(v) : point_name::vertex_a(v);
         };
@@ -391,8 +391,9 @@ void find_patch_points(const ConvexFaces& solid, std::span<const PatchTriangle* 
 void add_place_of_features(const Vec3& on_surface, const Vec3& on_solid, const Vec3& up,
                            std::span<const PatchTriangle* const> part, const ConvexFaces& solid,
                            bool solid_is_a, std::vector<PatchPoint>& points) {
-    // A vertex within this share of the solid's size names the place.
-    const double near = 0x1p-10 * solid.reach;
+    // Shares of the solid's size: a vertex that is as near names the place; an edge holds it, to rounding.
+    constexpr double kNameReach = 0x1p-10, kOnLine = 0x1p-30;
+    const double near = kNameReach * solid.reach;
     std::optional<std::uint64_t> name;
     for (std::uint32_t v = 0; v < solid.vertices.size() && !name; ++v)
         if (length(solid.vertices[v] - on_solid) <= near)
@@ -406,9 +407,8 @@ void add_place_of_features(const Vec3& on_surface, const Vec3& on_solid, const V
                 name = solid_is_a ? point_name::vertex_b(t->vertices[k])
                                   : point_name::vertex_a(t->vertices[k]);
             const Vec3 way = normalized_or_zero(q - p), from = on_surface - p;
-            if (length(from - dot(from, way) * way) <= 0x1p-30 * solid.reach)
-                edge = std::uint64_t{std::min(t->vertices[k], t->vertices[(k + 1) % 3])} << 32U |
-                       std::max(t->vertices[k], t->vertices[(k + 1) % 3]);
+            if (length(from - dot(from, way) * way) <= kOnLine * solid.reach)
+                edge = edge_key(t->vertices[k], t->vertices[(k + 1) % 3]);
         }
     const Vec3 across = perpendicular(up);
     const PatchPoint added{on_surface,

@@ -6,6 +6,7 @@
 #include "rigid/model/placed_model.h"
 #include "world/contacts/capsule_contacts.h"
 #include "world/narrow_phase/body.h"
+#include "world/narrow_phase/core_gap.h"
 
 #include <algorithm>
 #include <array>
@@ -17,9 +18,6 @@
 namespace abut {
 
 namespace {
-
-/// Bound of the rounding of a distance, relative to the coordinates that it was computed from.
-constexpr double kRoundingOfCore = 0x1p-48;
 
 /// Triangles that are farther than the nearest one by at most this factor are at the same place.
 constexpr double kBeside = 1 + 0x1p-20;
@@ -51,7 +49,7 @@ public:
 
     std::optional<RoundedContact> find(const Vec3& centre, bool solid_is_a) {
         RoundedContact found;
-        found.rounding = kRoundingOfCore * size_;
+        found.rounding = kCoreRounding * size_;
         collect();
         if (below_.empty())
             return found;
@@ -77,7 +75,7 @@ public:
 
 private:
     void collect() {
-        double bound = radius_ + margin_ + kRoundingOfCore * size_;
+        double bound = radius_ + margin_ + kCoreRounding * size_;
         const std::span<const Vec3> core(ends_.data(), is_ball_ ? 1 : 2);
         const Vec3 low = min(ends_[0], ends_[1]), high = max(ends_[0], ends_[1]);
         surface_.for_each_near_hull(core, bound, [&](std::uint32_t slot) {
@@ -111,16 +109,13 @@ private:
                   [](const TriangleBelow& s, const TriangleBelow& t) { return s.slot < t.slot; });
     }
 
-    /// Whether the core lies on the outer side of all triangles at the nearest place. Both sides of an
-    /// open surface are outer ones.
+    /// Returns whether the core lies outside at the nearest place: before all triangles there. Both sides of
+    /// an open surface are outside.
     [[nodiscard]] bool is_outside(const TriangleBelow& nearest) const {
         const Solid& solid = surface_.data().solid();
         if (!solid.closed)
             return true;
-        const auto& m = surface_.world().m;
-        const double mirrored =
-            dot(cross({m[0], m[1], m[2]}, {m[3], m[4], m[5]}), {m[6], m[7], m[8]}) < 0 ? -1 : 1;
-        const double facing = mirrored * solid.outward;
+        const double facing = is_mirroring(surface_.world()) ? -solid.outward : solid.outward;
         if (facing == 0)
             return false;
         return std::all_of(below_.begin(), below_.end(), [&](const TriangleBelow& t) {
@@ -157,14 +152,14 @@ private:
         const Vec3 out = normalized_or_zero(up - leans * inwards);
         const Vec3 on_solid = end - radius_ * out;
         double depth = dot(up_there, on_surface - on_solid) / dot(up_there, up);
-        if (depth < -margin_ - kRoundingOfCore * size_ || out == Vec3{})
+        if (depth < -margin_ - kCoreRounding * size_ || out == Vec3{})
             return std::nullopt;
         depth = std::max(depth, -margin_);
         return point_at(on_solid + depth * up, on_solid, depth, centre, solid_is_a);
     }
 
-    /// The place of the axis that is deepest below the line between the depths of its ends, as over a ridge.
-    /// None if there is no clear one.
+    /// Returns the contact of the place that lies deepest below the line between the depths of the ends, as
+    /// over a ridge. Returns none if no place does so clearly.
     [[nodiscard]] std::optional<ContactPoint>
     contact_between_ends(const Vec3& up, const Vec3& centre, bool solid_is_a) const {
         const Vec3 way = ends_[1] - ends_[0];

@@ -46,10 +46,8 @@ Transform solid_from(const ConvexFaces& solid, const Transform& world_from_surfa
 
 /// +1 if a surface's triangles face out of its solid, -1 if in; 0 if it bounds none, or not by one sign.
 double facing_of(const Model& surface, const Transform& world_from_surface) {
-    const auto& m = world_from_surface.m;
-    const double turn =
-        dot(cross({m[0], m[1], m[2]}, {m[3], m[4], m[5]}), {m[6], m[7], m[8]}) < 0 ? -1 : 1;
-    return turn * surface.data().solid().outward;
+    const int outward = surface.data().solid().outward;
+    return is_mirroring(world_from_surface) ? -outward : outward;
 }
 
 /// A direction from the surface to the solid, and how far they are apart along it; negative if they
@@ -58,7 +56,7 @@ struct Separation {
     Vec3 up;
     double gap = -HUGE_VAL;
     bool looks_away = false; ///< the surface's face looks away from the solid
-    bool in_doubt = false;   ///< edges may be what is nearest, of some triangle
+    bool in_doubt = false;   ///< some triangle may be nearest at an edge, which no face tells
 };
 
 /// Gaps that differ by at most this many roundings are equal.
@@ -184,8 +182,8 @@ private:
         return found;
     }
 
-    /// The direction in which a triangle and the solid are farthest apart, of those across their faces:
-    /// that of the triangle's, if it is as good as any.
+    /// Returns the direction across a face of either in which a triangle and the solid are farthest apart.
+    /// The triangle's own normal comes first where others are as good.
     [[nodiscard]] Separation separation(const PatchTriangle& t) const {
         Separation found;
         double lowest = HUGE_VAL;
@@ -281,8 +279,8 @@ private:
         return true;
     }
 
-    /// That of the nearest triangle of which faces tell it, and that does not look away. An infinite gap
-    /// if there is none.
+    /// Returns the separation of the nearest triangle. Triangles that look away, or that are nearest at
+    /// edges, do not count. If none is left, the gap is infinite.
     [[nodiscard]] Separation nearest_separation() const {
         Separation nearest;
         nearest.gap = HUGE_VAL;

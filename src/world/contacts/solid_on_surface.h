@@ -22,9 +22,11 @@ struct SolidPlace {
 class NearestOfPair {
 public:
     virtual ~NearestOfPair() = default;
-    /// As World::within tells it; infinitely far away if that is beyond the margin.
+    /// Returns what World::within tells of the pair. Its distance is infinite if the pair is farther apart
+    /// than the margin.
     [[nodiscard]] virtual SolidPlace of_pair() const = 0;
-    /// That of a triangle of the surface, in the solid's frame; one at the bound if it is not nearer.
+    /// Returns the nearest place of a triangle of the surface, in the solid's frame. Its distance is the
+    /// bound if the triangle is not nearer.
     [[nodiscard]] virtual SolidPlace of_triangle(const Triangle& triangle, double bound) const = 0;
 
 protected:

@@ -15,10 +15,6 @@ namespace {
 /// Faces lie in one plane if the cosine between their normals is larger: to 10^-6 radians.
 constexpr double kOnePlane = 1 - 0x1p-41;
 
-std::uint64_t edge_key(std::uint32_t v, std::uint32_t w) {
-    return std::uint64_t{std::min(v, w)} << 32U | std::max(v, w);
-}
-
 std::size_t mixed(std::uint64_t key) {
     key *= 0x9E3779B97F4A7C15U;
     return static_cast<std::size_t>(key ^ key >> 32U);
@@ -130,18 +126,12 @@ void SurfacePatch::add(const ConvexFaces& solid, const PlacedModel& surface, std
     edges_of_.push_back({edges_of(near), edges_of(deep)});
 }
 
-std::uint32_t SurfacePatch::root(std::uint32_t i) {
-    while (parent_[i] != i)
-        i = parent_[i] = parent_[parent_[i]];
-    return i;
-}
-
 void SurfacePatch::unite(std::uint32_t i, std::uint32_t k, bool is_deep) {
-    const auto [low, high] = std::minmax({root(i), root(k)});
+    const auto [low, high] = std::minmax({sets_.root(i), sets_.root(k)});
     // What the margin adds must not join regions that are two without it.
     if (low == high || (!is_deep && holds_deep_[low] && holds_deep_[high]))
         return;
-    parent_[high] = low;
+    sets_.unite(low, high);
     holds_deep_[low] = holds_deep_[low] || holds_deep_[high];
 }
 
@@ -165,9 +155,9 @@ SurfacePatch::EdgeSlot& SurfacePatch::slot_of(std::uint64_t key) {
 
 void SurfacePatch::connect() {
     const auto count = static_cast<std::uint32_t>(triangles_.size());
-    parent_.resize(count), holds_deep_.resize(count);
+    sets_.reset(count), holds_deep_.resize(count);
     for (std::uint32_t i = 0; i < count; ++i)
-        parent_[i] = i, holds_deep_[i] = triangles_[i].deep_area != Vec3{};
+        holds_deep_[i] = triangles_[i].deep_area != Vec3{};
     begin_edges(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         PatchTriangle& t = triangles_[i];
@@ -195,7 +185,7 @@ void SurfacePatch::connect() {
         unite(i, k, false);
     regions_ = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t first = root(i);
+        const std::uint32_t first = sets_.root(i);
         triangles_[i].region = first == i ? regions_++ : triangles_[first].region;
     }
 }

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "core/disjoint_sets.h"
 #include "rigid/model/placed_model.h"
 #include "world/contacts/convex_faces.h"
 
+#include <algorithm>
 #include <array>
 #include <boost/container/small_vector.hpp>
 #include <cstdint>
@@ -29,6 +31,11 @@ struct ClippedTriangle {
     [[nodiscard]] Vec3 vector_area() const;
 };
 
+/// Names an edge between two vertices, in either order.
+inline std::uint64_t edge_key(std::uint32_t v, std::uint32_t w) {
+    return std::uint64_t{std::min(v, w)} << 32U | std::max(v, w);
+}
+
 /// A triangle of a surface that comes near a convex solid.
 struct PatchTriangle {
     Triangle corners; ///< in the solid's frame
@@ -37,8 +44,8 @@ struct PatchTriangle {
     std::uint32_t region = 0;
     double near_area = 0; ///< of its part within the margin
     Vec3 deep_area; ///< vector area of its part clearly inside the solid; zero if there is none
-    /// Whether the neighbour at an edge lies in the same plane, or the edge is far from the solid: then no
-    /// contact point lies on the edge alone.
+    /// By edge: true if its neighbour lies in the same plane or has the edge's points, or if the edge is
+    /// far from the solid. Then no contact point is sought on it.
     std::array<bool, 3> is_flat{};
 };
 
@@ -53,14 +60,13 @@ public:
 
     [[nodiscard]] std::span<const PatchTriangle> triangles() const { return triangles_; }
     [[nodiscard]] std::uint32_t regions() const { return regions_; }
-    /// The clip of a triangle that is clearly inside, in steps of `rounding`.
+    /// A part of a triangle is clearly inside if it is this many roundings deep.
     static constexpr double kClear = 64;
 
 private:
     void add(const ConvexFaces& solid, const PlacedModel& surface, std::uint32_t slot,
              double facing, double margin, double rounding);
     void connect();
-    std::uint32_t root(std::uint32_t i);
     void unite(std::uint32_t i, std::uint32_t k, bool is_deep);
 
     /// An edge of a triangle that comes near the solid; the first one with its vertices.
@@ -71,7 +77,7 @@ private:
     };
     std::vector<std::uint32_t> slots_;
     std::vector<PatchTriangle> triangles_;
-    /// Whether a part of each edge of a triangle is within the margin, and clearly inside the solid.
+    /// By edge: true if a part of it is within the margin, and if a part is clearly inside the solid.
     struct EdgesOfTriangle {
         std::array<bool, 3> near{}, deep{};
     };
@@ -81,8 +87,8 @@ private:
     std::vector<EdgesOfTriangle> edges_of_; ///< by triangle
     std::vector<EdgeSlot> edges_;
     std::vector<std::array<std::uint32_t, 2>>
-        shared_; ///< triangles that share an edge within the margin
-    std::vector<std::uint32_t> parent_;
+        shared_;                           ///< triangles that share an edge within the margin
+    DisjointSets sets_;                    ///< of triangles
     std::vector<std::uint8_t> holds_deep_; ///< by root
     std::uint32_t pass_ = 0, regions_ = 0;
 };

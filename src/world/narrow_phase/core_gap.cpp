@@ -20,8 +20,6 @@ namespace abut {
 
 namespace {
 
-/// Bound of the rounding of a distance, relative to the coordinates that it was computed from.
-constexpr double kCoreRounding = 0x1p-48;
 /// The vector between two points tells the direction from a face if it is longer than this share of
 /// the coordinates: it is rounded by 2^-28 of its length then. The normal of the face always does.
 constexpr double kClearOfFace = 0x1p-20;

@@ -9,6 +9,9 @@
 // The gap of a model and a ball or a capsule, by the ball's centre or the capsule's axis.
 namespace abut {
 
+/// Bound of the rounding of a distance from a core, relative to the coordinates that it was computed from.
+inline constexpr double kCoreRounding = 0x1p-48;
+
 /// Measures the gap of a model's surface and a ball or a capsule. The model is body a.
 ///
 /// In          upper_bound: as gap_between. depths: `yes` only for bodies that share a point.

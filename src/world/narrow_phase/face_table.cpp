@@ -171,6 +171,10 @@ FaceTable::FaceTable(const Convex& body) {
             for (const std::uint32_t vertex : body.face(face))
                 vertex_and_face.push_back({vertex, static_cast<std::uint32_t>(normals_.size())});
         normals_.push_back(normal);
+        double offset = -HUGE_VAL;
+        for (const Corner& corner : corners)
+            offset = std::max(offset, dot(normal, body.vertices()[corner.vertex]));
+        offsets_.push_back(offset);
     }
     std::sort(vertex_and_face.begin(), vertex_and_face.end());
     vertex_and_face.erase(std::unique(vertex_and_face.begin(), vertex_and_face.end()),

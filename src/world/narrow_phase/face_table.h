@@ -29,6 +29,8 @@ public:
 
     /// The unit outward normal of a face.
     [[nodiscard]] const Vec3& normal(std::uint32_t face) const { return normals_[face]; }
+    /// The largest dot product of the normal and a corner of the face.
+    [[nodiscard]] double offset(std::uint32_t face) const { return offsets_[face]; }
     /// Counter-clockwise, seen from outside.
     [[nodiscard]] std::span<const Corner> corners(std::uint32_t face) const {
         return std::span(corners_).subspan(begin_[face], begin_[face + 1] - begin_[face]);
@@ -42,6 +44,7 @@ public:
 
 private:
     std::vector<Vec3> normals_;
+    std::vector<double> offsets_;
     std::vector<std::uint32_t> begin_{0}; ///< in `corners_`, for each face and at the end
     std::vector<Corner> corners_;
     std::vector<std::uint32_t> first_face_, faces_;

@@ -5,6 +5,8 @@
 
 #include "math/vector.h"
 
+#include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -51,7 +53,7 @@ private:
                 visit(index);
         if (nodes_.empty())
             return;
-        std::vector<std::uint32_t> stack{0};
+        boost::container::small_vector<std::uint32_t, 64> stack{0U};
         while (!stack.empty()) {
             const Node& node = nodes_[stack.back()];
             stack.pop_back();

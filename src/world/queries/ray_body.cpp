@@ -90,8 +90,8 @@ LinePart inside_tube(const Line& line, const Vec3& on, const Vec3& along, double
     return inside;
 }
 
-/// Of two convex sets that share a point, the first part of a line in their union begins where one of
-/// them is entered first.
+/// Returns the part of a line in the union of two convex sets that share a point. It begins where the line
+/// enters the first of them.
 LinePart first_of(const LinePart& s, const LinePart& t) {
     if (s.is_empty() || t.is_empty())
         return s.is_empty() ? t : s;
@@ -202,12 +202,8 @@ LinePart inside_curved(const Line& line, const SupportShape& solid) {
 LinePart inside_convex(const Line& line, const ConvexShape& convex) {
     LinePart inside;
     const FaceTable& faces = *convex.faces;
-    for (std::uint32_t f = 0; f < faces.size() && !inside.is_empty(); ++f) {
-        double offset = -HUGE_VAL;
-        for (const FaceTable::Corner& corner : faces.corners(f))
-            offset = std::max(offset, dot(faces.normal(f), convex.solid.vertices()[corner.vertex]));
-        inside.keep(behind(line, faces.normal(f), offset));
-    }
+    for (std::uint32_t f = 0; f < faces.size() && !inside.is_empty(); ++f)
+        inside.keep(behind(line, faces.normal(f), faces.offset(f)));
     return inside;
 }
 

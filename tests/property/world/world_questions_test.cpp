@@ -1,6 +1,7 @@
 // Rays, overlaps and sweeps of a world: rays against signed distances of the shapes' definitions, the other
 // two against the world's own queries of a body in place of the question.
 
+#include <abut/deformable.h>
 #include <abut/error.h>
 #include <abut/rigid_shape.h>
 #include <abut/vector.h>
@@ -236,6 +237,46 @@ TEST(WorldQuestions, OverlapsAndSweepsAreThoseOfABodyInThatPlace) {
     }
     EXPECT_GT(touched, many(60));
     EXPECT_GT(met, many(60) / 3);
+}
+
+TEST(WorldQuestions, ShapesThatTouchByRoundingOverlapAsBodiesDo) {
+    Random random(20261203);
+    int touching = 0;
+    for (int round = 0; round < many(400); ++round) {
+        const bool is_ball = random.chance(0.5);
+        const double size = random.uniform(0.1, 3), gap = 0x1p-52 * random.integer(-8, 40);
+        const AnyShape shape =
+            is_ball ? AnyShape(Sphere{{}, size}) : AnyShape(Capsule{{{-1, 0, 0}, {1, 0, 0}}, size});
+        World world;
+        world.add(Box3{{-1, -1, -1}, {1, 1, 0}}, {});
+        const Pose pose{{0.3, 0.2, size + gap * size}, {1, 0, 0, 0}};
+        const RigidShape asked =
+            std::visit([](const auto& each) { return RigidShape(each); }, shape);
+        const std::size_t found = world.overlaps(asked, pose).size();
+        test::add(world, shape, pose);
+        EXPECT_EQ(found, world.collide().size()) << "size " << size << " gap " << gap;
+        touching += static_cast<int>(found);
+    }
+    EXPECT_GT(touching, many(400) / 2);
+}
+
+TEST(WorldQuestions, ADeformableStaysAsItIsAtTheStartOfItsStep) {
+    Mesh sheet{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+    Deformable surface(sheet);
+    std::vector<Vec3> end = sheet.positions;
+    for (Vec3& p : end)
+        p.z += 5;
+    surface.set_motion(sheet.positions, end);
+    World world;
+    world.add(surface);
+    EXPECT_EQ(world.first_hit({{0.2, 0.1, 4}, {0, 0, -1}}).t, 4);
+    EXPECT_EQ(world.overlaps(Sphere{{}, 0.5}, {{0, 0, 0.2}, {1, 0, 0, 0}}).size(), 1U);
+    EXPECT_TRUE(world.overlaps(Sphere{{}, 0.5}, {{0, 0, 4}, {1, 0, 0, 0}}).empty());
+    Motion down = Motion::fixed({{0, 0, 4}, {1, 0, 0, 0}});
+    down.velocity = {0, 0, -4};
+    const BodySweepHit hit = world.sweep(Sphere{{}, 0.5}, down, {}, {.absolute_error = 1e-6});
+    ASSERT_TRUE(hit.meet);
+    EXPECT_NEAR(hit.impact.time, 3.5 / 4, 1e-5);
 }
 
 TEST(WorldQuestions, AskOnlyTheirGroupsAndTheBodiesThatAreThere) {
