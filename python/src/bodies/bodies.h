@@ -6,6 +6,7 @@
 #include "queries/queries.h"
 
 #include <map>
+#include <string>
 
 namespace abut::python {
 
@@ -69,6 +70,34 @@ inline std::unique_ptr<Callback> body_callback(const py::object& filter) {
     return std::make_unique<Callback>(filter);
 }
 
+/// Calls use(shape) with a rigid shape of the type that a Python object has.
+///
+/// In          last: the last kinds that a caller accepts, for the message.
+template <class Use>
+auto with_rigid_shape(const py::object& shape, const char* last, const Use& use) {
+    if (const auto* model = peek<Model>(shape))
+        return use(*model);
+    if (const auto* convex = peek<Convex>(shape))
+        return use(*convex);
+    if (const auto* sphere = peek<Sphere>(shape))
+        return use(*sphere);
+    if (const auto* capsule = peek<Capsule>(shape))
+        return use(*capsule);
+    if (const auto* box = peek<Box3>(shape))
+        return use(*box);
+    if (const auto* cylinder = peek<Cylinder>(shape))
+        return use(*cylinder);
+    if (const auto* cone = peek<Cone>(shape))
+        return use(*cone);
+    if (const auto* ellipsoid = peek<Ellipsoid>(shape))
+        return use(*ellipsoid);
+    if (const auto* half_space = peek<HalfSpace>(shape))
+        return use(*half_space);
+    throw py::type_error(
+        std::string("shape: a Model, Convex, Sphere, Capsule, Box3, Cylinder, Cone, Ellipsoid, ") +
+        last + " is wanted");
+}
+
 class Bodies;
 void bind_question_results(py::module_& module);
 /// Adds the rays, overlaps and sweeps of a World.
@@ -129,26 +158,9 @@ public:
             return body;
         }
         const Pose place = to_pose(pose, "pose");
-        if (const auto* model = peek<Model>(shape))
-            return quick([&](World& world) { return world.add(*model, place, options); });
-        if (const auto* convex = peek<Convex>(shape))
-            return quick([&](World& world) { return world.add(*convex, place, options); });
-        if (const auto* sphere = peek<Sphere>(shape))
-            return quick([&](World& world) { return world.add(*sphere, place, options); });
-        if (const auto* capsule = peek<Capsule>(shape))
-            return quick([&](World& world) { return world.add(*capsule, place, options); });
-        if (const auto* box = peek<Box3>(shape))
-            return quick([&](World& world) { return world.add(*box, place, options); });
-        if (const auto* cylinder = peek<Cylinder>(shape))
-            return quick([&](World& world) { return world.add(*cylinder, place, options); });
-        if (const auto* cone = peek<Cone>(shape))
-            return quick([&](World& world) { return world.add(*cone, place, options); });
-        if (const auto* ellipsoid = peek<Ellipsoid>(shape))
-            return quick([&](World& world) { return world.add(*ellipsoid, place, options); });
-        if (const auto* half_space = peek<HalfSpace>(shape))
-            return quick([&](World& world) { return world.add(*half_space, place, options); });
-        throw py::type_error("shape: a Model, Convex, Sphere, Capsule, Box3, Cylinder, Cone, "
-                             "Ellipsoid, HalfSpace or Deformable is wanted");
+        return with_rigid_shape(shape, "HalfSpace or Deformable", [&](const auto& rigid) {
+            return quick([&](World& world) { return world.add(rigid, place, options); });
+        });
     }
     void move(const py::object& body, const py::object& pose) {
         if (!is_array(body) || py::reinterpret_borrow<py::array>(body).ndim() == 0) {

@@ -16,35 +16,8 @@ namespace abut::python {
 namespace {
 
 RigidShape to_rigid_shape(const py::object& shape) {
-    if (const auto* model = peek<Model>(shape))
-        return *model;
-    if (const auto* convex = peek<Convex>(shape))
-        return *convex;
-    if (const auto* sphere = peek<Sphere>(shape))
-        return *sphere;
-    if (const auto* capsule = peek<Capsule>(shape))
-        return *capsule;
-    if (const auto* box = peek<Box3>(shape))
-        return *box;
-    if (const auto* cylinder = peek<Cylinder>(shape))
-        return *cylinder;
-    if (const auto* cone = peek<Cone>(shape))
-        return *cone;
-    if (const auto* ellipsoid = peek<Ellipsoid>(shape))
-        return *ellipsoid;
-    if (const auto* half_space = peek<HalfSpace>(shape))
-        return *half_space;
-    throw py::type_error("shape: a Model, Convex, Sphere, Capsule, Box3, Cylinder, Cone, Ellipsoid "
-                         "or HalfSpace is wanted");
-}
-
-Ray to_world_ray(const py::object& origin, const py::object& direction, double t_min,
-                 double t_max) {
-    if (const Ray* ray = peek<Ray>(origin))
-        return *ray;
-    if (direction.is_none())
-        throw py::type_error("origin: a Ray, or origin and direction are wanted");
-    return {to_vec3(origin, "origin"), to_vec3(direction, "direction"), t_min, t_max};
+    return with_rigid_shape(shape, "HalfSpace",
+                            [](const auto& rigid) { return RigidShape(rigid); });
 }
 
 /// Asks a world about the bodies of some groups that a function accepts.
@@ -77,7 +50,7 @@ void add_rays(py::class_<Bodies>& type) {
             [](Bodies& self, const py::object& origin, const py::object& direction, double t_min,
                double t_max, std::uint32_t groups, const py::object& filter,
                const py::object& report) {
-                const Ray ray = to_world_ray(origin, direction, t_min, t_max);
+                const Ray ray = to_ray(origin, direction, t_min, t_max);
                 return ask(self, groups, filter, report, [&](World& world, const BodyQuery& query) {
                     return world.first_hit(ray, query);
                 });
@@ -99,7 +72,7 @@ void add_rays(py::class_<Bodies>& type) {
             [](Bodies& self, const py::object& origin, const py::object& direction, double t_min,
                double t_max, std::uint32_t groups, const py::object& filter,
                const py::object& report) {
-                const Ray ray = to_world_ray(origin, direction, t_min, t_max);
+                const Ray ray = to_ray(origin, direction, t_min, t_max);
                 return records(
                     ask(self, groups, filter, report, [&](World& world, const BodyQuery& query) {
                         return world.all_hits(ray, query);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <abut/batch.h>
+#include <abut/shapes.h>
 
 #include "support/arguments.h"
 #include "support/records.h"
@@ -34,6 +35,9 @@ template <class T>
 RecordBinder<T>& add_counters(RecordBinder<T>& record) {
     return record.field("counters", &T::counters, "Counters: the work that was done");
 }
+
+/// A Ray that a caller gave as such, or by origin and direction.
+Ray to_ray(const py::object& origin, const py::object& direction, double t_min, double t_max);
 
 /// Many answers of `collide`, bound in batch.cpp.
 py::object contacts_of(std::vector<Contacts> contacts);

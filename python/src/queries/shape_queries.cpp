@@ -5,6 +5,14 @@
 
 namespace abut::python {
 
+Ray to_ray(const py::object& origin, const py::object& direction, double t_min, double t_max) {
+    if (const Ray* ray = peek<Ray>(origin))
+        return *ray;
+    if (direction.is_none())
+        throw py::type_error("origin: a Ray, or origin and direction are wanted");
+    return {to_vec3(origin, "origin"), to_vec3(direction, "direction"), t_min, t_max};
+}
+
 namespace {
 
 bool a_model(PyObject* first, PyObject* /*third*/) {

@@ -28,12 +28,6 @@ auto ask_walk(OpenWalk& self, const py::object& shape, const py::object& pose, W
     });
 }
 
-Ray to_ray(const py::object& origin, const py::object& direction, double t_min, double t_max) {
-    if (const auto* ray = peek<Ray>(origin))
-        return *ray;
-    return {to_vec3(origin, "origin"), to_vec3(direction, "direction"), t_min, t_max};
-}
-
 py::class_<OpenWalk> walk_class(py::module_& module) {
     return py::class_<OpenWalk>(
                module, "Walk",
