@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <new>
@@ -19,7 +20,7 @@
 
 namespace {
 
-std::atomic<long> allocations{0};
+std::atomic<std::int64_t> allocations{0};
 
 void* counted(std::size_t size) {
     allocations.fetch_add(1, std::memory_order_relaxed);
@@ -69,13 +70,13 @@ TEST(Allocations, AStepWithoutMotionMakesNone) {
         }
         std::vector<ContactManifold> manifolds;
         std::vector<BodyPair> pairs;
-        long worst = 0;
+        std::int64_t worst = 0;
         for (int step = 0; step < 8; ++step) {
-            const long before = allocations;
+            const std::int64_t before = allocations;
             world.contact_manifolds(manifolds, 0.01);
             // The first steps make the memory that the others use again.
             if (step >= 4)
-                worst = std::max(worst, allocations - before);
+                worst = std::max(worst, allocations.load() - before);
         }
         EXPECT_EQ(worst, 0) << threads << " threads";
         EXPECT_EQ(manifolds.size(), 100U);
