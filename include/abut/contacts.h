@@ -17,6 +17,10 @@ struct ContactPoint {
     Vec3 point_a, point_b;
     double depth = 0;          ///< along the normal; negative: a gap, at most the margin
     std::uint64_t feature = 0; ///< names the two features that make the point; stays while they do
+    /// Of models and deformables: the triangle of the contact. The body's point lies on it, to rounding; a
+    /// capsule's end, and the one point of a cylinder, cone or ellipsoid, may lie beside it. Of several
+    /// triangles that hold the point, motion may change which one it is. Of other bodies 0.
+    std::uint32_t triangle_a = 0, triangle_b = 0;
 };
 
 /// A region where two bodies are in contact. The points are the corners of that region, without

@@ -68,6 +68,9 @@ void bind_world_results(py::module_& module) {
         .field("depth", &ContactPoint::depth, "length along the normal; negative: a gap")
         .field("feature", &ContactPoint::feature,
                "names the two features that make the point; stays while they do")
+        .field("triangle_a", &ContactPoint::triangle_a,
+               "of a model or deformable: the triangle of the contact; else 0")
+        .field("triangle_b", &ContactPoint::triangle_b, "as triangle_a")
         .done();
     RecordBinder<ContactManifold>(module, "ContactManifold",
                                   "A region where two bodies are in contact, world frame.")

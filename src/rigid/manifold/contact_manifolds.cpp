@@ -267,18 +267,20 @@ double least_gap(const std::vector<ModelManifold>& manifolds) {
 /// faces, which have no region in common with it.
 ModelManifold manifold_of_nearest(const PlacedPair& pair, const std::vector<Contact>& pairs) {
     ClosestPoints nearest;
+    TrianglePair of;
     for (const Contact& each : pairs) {
         const ClosestPoints points =
             triangle_triangle_distance(pair.triangle_a(each.pair.a), pair.triangle_b(each.pair.b));
         if (&each == pairs.data() || points.distance_sq < nearest.distance_sq)
-            nearest = points;
+            nearest = points, of = each.pair;
     }
     ModelManifold m;
     m.normal = normalized_or_zero(nearest.b - nearest.a);
     if (m.normal == Vec3{})
         m.normal = {0, 0, 1};
     m.count = 1;
-    m.points[0] = {nearest.a, nearest.b, -std::sqrt(nearest.distance_sq), point_name::kMiddle};
+    m.points[0] = {nearest.a,           nearest.b, -std::sqrt(nearest.distance_sq),
+                   point_name::kMiddle, of.a,      of.b};
     m.status = Status::bound_only;
     return m;
 }

@@ -71,8 +71,8 @@ ManifoldSide::ManifoldSide(const Model& model, const Transform& world_from_model
     : model_(model, world_from_model, origin), solid_(model.data().solid()),
       facing_(is_mirroring(world_from_model) ? -solid_.outward : solid_.outward) {}
 
-bool ManifoldSide::take_earlier(const Triangle& t, const Vec3& point, const Vec3& direction,
-                                SurfaceHit& hit) const {
+bool ManifoldSide::take_earlier(std::uint32_t slot, const Triangle& t, const Vec3& point,
+                                const Vec3& direction, SurfaceHit& hit) const {
     const int side = passing_side(point, direction, t);
     if (side == 0)
         return false;
@@ -84,7 +84,7 @@ bool ManifoldSide::take_earlier(const Triangle& t, const Vec3& point, const Vec3
     const double height = dot(normal, t[0] - point) / along;
     if (!(height >= 0) || (hit.found && height >= hit.height))
         return false;
-    hit = {true, height, !is_oriented() || side * facing() < 0};
+    hit = {true, height, !is_oriented() || side * facing() < 0, slot};
     return true;
 }
 
@@ -100,7 +100,7 @@ ManifoldSide::SurfaceHit ManifoldSide::first_hit(const Vec3& point, const Vec3& 
     float bound = 1;
     for_each_along_segment(model_.data().tree(), clipped->segment, [&](std::uint32_t slot) {
         const Triangle t = model_.world_slot(slot);
-        if (line.misses(t) || !take_earlier(t, point, direction, first))
+        if (line.misses(t) || !take_earlier(slot, t, point, direction, first))
             return bound;
         const double s =
             2 * (first.height / far - clipped->begin) / (clipped->end - clipped->begin) - 1;

@@ -36,6 +36,7 @@ public:
     struct LineHit {
         bool found = false;
         double height = 0; ///< along the direction, from the line's start
+        std::uint32_t triangle = 0;
     };
     /// Returns the height, along a direction, at which the part of the model around or below a
     /// point ends: the first surface ahead if the point lies inside, else the first one behind. A
@@ -49,21 +50,22 @@ public:
         bool found = false;
         double height = 0;
         bool leaves = false; ///< the ray passes from the inside to the outside
+        std::uint32_t slot = 0;
     };
-    /// Replaces a hit by that of a triangle in the world if the ray meets the triangle earlier.
-    /// Returns whether it did.
-    bool take_earlier(const Triangle& triangle, const Vec3& point, const Vec3& direction,
-                      SurfaceHit& hit) const;
+    /// Replaces a hit by that of the triangle at a slot, as it lies in the world, if the ray meets that
+    /// earlier. Returns whether it did.
+    bool take_earlier(std::uint32_t slot, const Triangle& triangle, const Vec3& point,
+                      const Vec3& direction, SurfaceHit& hit) const;
     /// As `top_along`, where first_hit(point, direction) finds the first hit of a ray.
     template <typename FirstHit>
     [[nodiscard]] LineHit top_along(const Vec3& point, const Vec3& direction,
                                     const FirstHit& first_hit) const {
         const SurfaceHit ahead = first_hit(point, direction);
         if (ahead.found && ahead.leaves)
-            return {true, ahead.height};
+            return {true, ahead.height, model_.data().triangle_at(ahead.slot)};
         const SurfaceHit behind = first_hit(point, -direction);
         if (behind.found && (!behind.leaves || !is_oriented()))
-            return {true, -behind.height};
+            return {true, -behind.height, model_.data().triangle_at(behind.slot)};
         return {};
     }
 

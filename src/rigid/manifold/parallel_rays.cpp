@@ -22,7 +22,7 @@ void ParallelRays::begin(const ManifoldSide& side, const RegionFrame& frame, dou
 
 void ParallelRays::seek() {
     state_ = State::whole_model;
-    triangles_.clear(), extents_.clear();
+    triangles_.clear(), slots_.clear(), extents_.clear();
     const PlacedModel& model = side_->model();
     const Vec3 &centre = frame_->centre, &normal = frame_->normal;
     const double far = length(model.middle() - centre) + model.reach() + 2 * radius_;
@@ -35,7 +35,7 @@ void ParallelRays::seek() {
         for_each_along_segment(model.data().tree(), clipped->segment, [&](std::uint32_t slot) {
             if (triangles_.size() == kMostTriangles + 1)
                 return -2.0F; // before the segment: no further triangle is visited
-            triangles_.push_back(model.world_slot(slot));
+            triangles_.push_back(model.world_slot(slot)), slots_.push_back(slot);
             return 1.0F;
         });
     if (triangles_.size() > kMostTriangles)
@@ -65,7 +65,7 @@ ManifoldSide::SurfaceHit ParallelRays::first_hit(const Vec3& point, const Vec3& 
                                    (y <= e.upper) & (forward ? e.top >= z : e.bottom <= z));
         if (!may_meet)
             continue;
-        side_->take_earlier(triangles_[i], point, direction, first);
+        side_->take_earlier(slots_[i], triangles_[i], point, direction, first);
     }
     return first;
 }

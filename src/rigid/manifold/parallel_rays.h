@@ -41,6 +41,7 @@ private:
     double radius_ = 0, far_ = 0; ///< of the rays' starts: from the axis, along it
     State state_ = State::not_sought;
     std::vector<Triangle> triangles_;
+    std::vector<std::uint32_t> slots_; ///< of the triangles
     std::vector<Extent> extents_;
 };
 

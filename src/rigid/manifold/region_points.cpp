@@ -43,6 +43,7 @@ struct PointCandidate {
     Kind kind = Kind::none;
     Vec3 at;                   ///< the vertex; a point of the line along the normal; fixed: on a
     Vec3 on_b;                 ///< of a fixed one
+    TrianglePair pair;         ///< that it comes from
     std::uint64_t feature = 0; ///< its name
     bool was_chosen = false;   ///< in the last step
 };
@@ -116,8 +117,9 @@ public:
             manifold_.status = Status::bound_only;
             const TriangleMeeting& m = region_[region_.size() / 2];
             const Vec3 on_b = m.kind == TriangleContact::none ? m.to : m.from;
-            first = ContactPoint{m.from, on_b, dot(frame_.normal, m.from - on_b),
-                                 point_name::triangles(m.pair)};
+            first = ContactPoint{
+                m.from,   on_b,    dot(frame_.normal, m.from - on_b), point_name::triangles(m.pair),
+                m.pair.a, m.pair.b};
         }
         add(*first);
         tried_[static_cast<std::size_t>(tried_count_++)] = first->feature;
@@ -136,14 +138,14 @@ private:
     void collect() {
         for (const TriangleMeeting& m : region_) {
             for (std::uint32_t i = 0; i < m.point_count; ++i)
-                collect_fixed(meetings_.points[m.first_point + i]);
+                collect_fixed(m.pair, meetings_.points[m.first_point + i]);
             if (m.kind != TriangleContact::cross)
                 continue;
             const double height = dot(frame_.normal, m.from - frame_.centre);
             lowest_ = std::min(lowest_, height), highest_ = std::max(highest_, height);
-            take_everywhere(
-                curve_, frame_.right(m.from), frame_.up(m.from),
-                candidate(PointCandidate::Kind::line, m.from, point_name::triangles(m.pair)));
+            take_everywhere(curve_, frame_.right(m.from), frame_.up(m.from),
+                            candidate(PointCandidate::Kind::line, m.from, m.pair,
+                                      point_name::triangles(m.pair)));
         }
         const double width = extent_of_region();
         lowest_ -= width, highest_ += width;
@@ -156,12 +158,12 @@ private:
     }
 
     [[nodiscard]] PointCandidate candidate(PointCandidate::Kind kind, const Vec3& at,
-                                           std::uint64_t feature) const {
-        return {
-            kind, at, {}, feature, std::find(last_.begin(), last_.end(), feature) != last_.end()};
+                                           const TrianglePair& pair, std::uint64_t feature) const {
+        return {kind, at,      {},
+                pair, feature, std::find(last_.begin(), last_.end(), feature) != last_.end()};
     }
 
-    void collect_fixed(const FixedPoint& p) {
+    void collect_fixed(const TrianglePair& pair, const FixedPoint& p) {
         // A gap straight across the normal is that of another face, as of the second wall of a corner.
         // Along the normal it would look like a touch. So would one against the normal look like a depth.
         constexpr double kCosOfGap = 0x1p-30, kSlightGap = 0x1p8; // roundings
@@ -170,7 +172,7 @@ private:
         if (gap > kSlightGap * rounding_ &&
             (std::abs(depth) < most || (depth > 0 && frame_.is_flat)))
             return;
-        PointCandidate c = candidate(PointCandidate::Kind::fixed, p.a, p.feature);
+        PointCandidate c = candidate(PointCandidate::Kind::fixed, p.a, pair, p.feature);
         c.on_b = p.b;
         take_everywhere(depth >= -rounding_ ? fixed_ : gaps_, frame_.right(p.a), frame_.up(p.a), c);
         deepest_fixed_.take(depth, c);
@@ -188,14 +190,14 @@ private:
                 collected_b_.add(vb);
                 collect_vertex(
                     vertices_b_, lowest_b_, -dot(n, p - frame_.centre),
-                    candidate(PointCandidate::Kind::vertex_b, p, point_name::vertex_b(vb)));
+                    candidate(PointCandidate::Kind::vertex_b, p, m.pair, point_name::vertex_b(vb)));
             }
             if (const Vec3& p = fa.corners[k];
                 !collected_a_.has(va) && dot(out_b, p - m.from) < 0) {
                 collected_a_.add(va);
                 collect_vertex(
                     vertices_a_, highest_a_, dot(n, p - frame_.centre),
-                    candidate(PointCandidate::Kind::vertex_a, p, point_name::vertex_a(va)));
+                    candidate(PointCandidate::Kind::vertex_a, p, m.pair, point_name::vertex_a(va)));
             }
         }
     }
@@ -222,6 +224,7 @@ private:
         const Vec3& n = frame_.normal;
         ContactPoint p;
         p.feature = c.feature;
+        p.triangle_a = c.pair.a, p.triangle_b = c.pair.b;
         if (c.kind == PointCandidate::Kind::none)
             return std::nullopt;
         if (c.kind == PointCandidate::Kind::fixed) {
@@ -232,13 +235,13 @@ private:
                 const ManifoldSide::LineHit top = rays_.a.top_along(c.at, n);
                 if (!top.found)
                     return std::nullopt;
-                p.point_a = c.at + top.height * n;
+                p.point_a = c.at + top.height * n, p.triangle_a = top.triangle;
             }
             if (c.kind != PointCandidate::Kind::vertex_b) {
                 const ManifoldSide::LineHit bottom = rays_.b.top_along(c.at, -n);
                 if (!bottom.found)
                     return std::nullopt;
-                p.point_b = c.at - bottom.height * n;
+                p.point_b = c.at - bottom.height * n, p.triangle_b = bottom.triangle;
             }
         }
         // A vertex of b leaves a near the curve; otherwise it is in another part of a.
@@ -263,7 +266,7 @@ private:
     /// searched in steps that halve: where edges cross, the deepest line is where they cross.
     [[nodiscard]] std::optional<ContactPoint> deepest_inside() const {
         constexpr int kRounds = 6;
-        PointCandidate line{PointCandidate::Kind::line, frame_.centre, {}, point_name::kMiddle};
+        PointCandidate line{PointCandidate::Kind::line, frame_.centre, {}, {}, point_name::kMiddle};
         std::optional<ContactPoint> best = measured(line);
         if (region_.size() > kFewTriangles)
             return best;
@@ -272,7 +275,7 @@ private:
             const Vec3 from = line.at;
             for (const Vec3& way :
                  {frame_.across, frame_.upwards, -frame_.across, -frame_.upwards}) {
-                const PointCandidate other{line.kind, from + step * way, {}, line.feature};
+                const PointCandidate other{line.kind, from + step * way, {}, {}, line.feature};
                 const std::optional<ContactPoint> p = measured(other);
                 if (p && (!best || p->depth > best->depth))
                     best = p, line.at = other.at;

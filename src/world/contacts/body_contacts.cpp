@@ -13,7 +13,7 @@
 #include "world/contacts/plane_contacts.h"
 #include "world/contacts/rounded_on_surface.h"
 #include "world/contacts/solid_contacts.h"
-#include "world/contacts/solid_on_surface.h"
+#include "world/contacts/solid_regions.h"
 #include "world/narrow_phase/contact_rounding.h"
 #include "world/narrow_phase/offset_surface.h"
 
@@ -100,25 +100,8 @@ void append_one_point(const PlacedBody& a, const PlacedBody& b, double margin,
     const Vec3 point_b =
         gap.normal == Vec3{} ? gap.point_a + gap.distance * manifold.normal : gap.point_b;
     // The name of the only point stays the same from triangle to triangle.
-    manifold.points[0] = {gap.point_a, point_b, -gap.distance, 0};
+    manifold.points[0] = {gap.point_a, point_b, -gap.distance, 0, gap.triangle_a, gap.triangle_b};
     manifold.status = gap.status;
-}
-
-bool is_surface(const BodyShape& shape) {
-    return std::holds_alternative<Model>(shape) || is_deformable(shape);
-}
-
-/// The faces of a body as triangles. None of a ball, a capsule, a box without area, a curved shape or
-/// a half-space.
-std::optional<OffsetSurface> triangles_of(const BodyShape& shape) {
-    if (const auto* deformable = std::get_if<DeformableShape>(&shape))
-        return OffsetSurface{deformable->snapshot->model(), {}, 0};
-    if (const auto* box = std::get_if<RoundedBox>(&shape);
-        box != nullptr && std::count(box->half.begin(), box->half.end(), 0.0) > 1)
-        return std::nullopt;
-    if (std::holds_alternative<CurvedShape>(shape) || is_half_space(shape))
-        return std::nullopt;
-    return offset_surface_of(shape);
 }
 
 /// The manifolds of two surfaces, one for each region where they meet. A surface that lies inside the
@@ -132,105 +115,6 @@ std::vector<ModelManifold> surface_regions(const PlacedBody& a, const PlacedBody
     return surface_manifolds(of_a->surface, compose(a.world_from_body, of_a->body_from_surface),
                              of_b->surface, compose(b.world_from_body, of_b->body_from_surface),
                              options);
-}
-
-/// The convex solid of a pair whose other body is a surface.
-// NOLINTNEXTLINE(bugprone-exception-escape): its move fails only for lack of memory
-struct SolidOfPair {
-    std::optional<ConvexFaces> faces;
-    bool is_a = false;
-};
-/// Returns the convex solid. If both bodies are one, the smaller; if they are as large, a.
-SolidOfPair solid_of(const PlacedBody& a, const PlacedBody& b) {
-    SolidOfPair of_a, of_b;
-    if (is_surface(b.shape))
-        of_a = {convex_faces(a.shape, a.world_from_body), true};
-    if (is_surface(a.shape))
-        of_b = {convex_faces(b.shape, b.world_from_body), false};
-    return of_a.faces && (!of_b.faces || of_a.faces->reach <= of_b.faces->reach) ? of_a : of_b;
-}
-
-/// Where the bodies of a pair are nearest.
-class NearestOfBodies final : public NearestOfPair {
-public:
-    NearestOfBodies(const PlacedBody& a, const PlacedBody& b, const SolidOfPair& solid,
-                    double margin, PairWarmStart& warm_start)
-        : a_(a), b_(b), solid_(solid), margin_(margin), warm_start_(warm_start) {}
-
-    [[nodiscard]] SolidPlace of_pair() const override {
-        if (!of_pair_)
-            of_pair_ = find();
-        return *of_pair_;
-    }
-    [[nodiscard]] SolidPlace of_triangle(const Triangle& triangle, double bound) const override {
-        if (!faces_) {
-            const PlacedBody& body = solid_.is_a ? a_ : b_;
-            const OffsetSurface surface = *triangles_of(body.shape);
-            // The frame of a box is that of its axes, not of the body.
-            faces_.emplace(surface.surface,
-                           compose(inverse(solid_.faces->world_from_solid),
-                                   compose(body.world_from_body, surface.body_from_surface)));
-        }
-        SolidPlace nearest;
-        nearest.distance = bound;
-        faces_->for_each_near_hull(triangle, bound, [&](std::uint32_t slot) {
-            const ClosestPoints here =
-                triangle_triangle_distance(triangle, faces_->world_slot(slot));
-            if (const double distance = std::sqrt(here.distance_sq); distance < nearest.distance)
-                nearest = {here.a, here.b, normalized_or_zero(here.b - here.a), distance};
-        });
-        return nearest;
-    }
-
-private:
-    [[nodiscard]] SolidPlace find() const {
-        const BodyGap gap =
-            signed_gap_between(a_, b_, std::nextafter(margin_, HUGE_VAL), warm_start_);
-        if (gap.distance > margin_) { // then it has no points
-            SolidPlace none;
-            none.distance = HUGE_VAL;
-            return none;
-        }
-        const Transform& frame = solid_.faces->world_from_solid;
-        const auto to_solid = [&](const Vec3& p) {
-            return pull_back(frame, p - Vec3{frame.m[9], frame.m[10], frame.m[11]});
-        };
-        const Vec3 up = pull_back(frame, solid_.is_a ? -gap.normal : gap.normal);
-        return {to_solid(solid_.is_a ? gap.point_b : gap.point_a),
-                to_solid(solid_.is_a ? gap.point_a : gap.point_b), up, gap.distance};
-    }
-
-    const PlacedBody &a_, &b_;
-    const SolidOfPair& solid_;
-    double margin_;
-    PairWarmStart& warm_start_;
-    // Both once they are needed.
-    mutable std::optional<SolidPlace> of_pair_;
-    mutable std::optional<PlacedModel> faces_; ///< of the solid, in its frame
-};
-
-/// The manifolds of a convex solid and a surface. Returns a bound of the rounding of their depths; none,
-/// and adds nothing, if pairs of triangles have to tell them.
-///
-/// In          a solid with faces.
-std::optional<double> add_solid_regions(const PlacedBody& a, const PlacedBody& b,
-                                        const SolidOfPair& solid, double margin,
-                                        PairWarmStart& warm_start,
-                                        std::vector<ModelManifold>& regions) {
-    const std::vector<ModelManifold>& last = warm_start.regions.manifolds;
-    const PlacedBody& ground = solid.is_a ? b : a;
-    boost::container::small_vector<std::uint64_t, 8> names;
-    for (const ModelManifold& m : last)
-        for (std::uint32_t i = 0; i < m.count; ++i)
-            names.push_back(m.points[i].feature);
-    const OffsetSurface surface = *triangles_of(ground.shape);
-    const auto rounding = add_solid_on_surface(
-        *solid.faces, surface.surface, compose(ground.world_from_body, surface.body_from_surface),
-        solid.is_a, margin, std::span(names.data(), names.size()),
-        NearestOfBodies(a, b, solid, margin, warm_start), regions);
-    if (rounding)
-        name_regions(regions, &last);
-    return rounding;
 }
 
 /// Whether the kind of shape has a face for `face_of`. Curved shapes and half-spaces have one point.
@@ -379,6 +263,11 @@ void append_region_contacts(const BodiesInContact& bodies, double margin, PairWa
         manifold.normal = region.normal, manifold.region = region.region;
         manifold.count = region.count, manifold.points = region.points;
         manifold.status = Status::bound_only;
+        // The triangles of a box or a convex body are the library's own.
+        for (ContactPoint& point : manifold.points) {
+            point.triangle_a = is_surface(a.shape) ? point.triangle_a : 0;
+            point.triangle_b = is_surface(b.shape) ? point.triangle_b : 0;
+        }
     }
 }
 

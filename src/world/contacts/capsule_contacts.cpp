@@ -27,6 +27,7 @@ std::optional<ContactPoint> contact_of_end(const Model& surface,
     point.depth = std::max(-gap.distance, -limits.margin);
     point.point_b = end.centre - end.radius * normal;
     point.point_a = point.point_b + point.depth * normal;
+    point.triangle_a = gap.triangle_a;
     return point;
 }
 
@@ -39,7 +40,8 @@ contacts_of_ends(const Model& surface, const Transform& world_from_surface, cons
         auto point = contact_of_end(surface, world_from_surface, {centre, capsule.radius},
                                     capsule_is_a ? -normal : normal, limits);
         if (point && capsule_is_a)
-            std::swap(point->point_a, point->point_b);
+            std::swap(point->point_a, point->point_b),
+                std::swap(point->triangle_a, point->triangle_b);
         return point;
     };
     return {contact(capsule.axis.a), contact(capsule.axis.b)};

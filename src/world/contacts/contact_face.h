@@ -18,8 +18,9 @@ namespace abut {
 struct ContactFace {
     struct Corner {
         Vec3 at;
-        std::uint32_t vertex = 0; ///< the number of this vertex in the solid
-        std::uint32_t edge = 0;   ///< the number of the edge from this corner to the next
+        std::uint32_t vertex = 0;   ///< the number of this vertex in the solid
+        std::uint32_t edge = 0;     ///< the number of the edge from this corner to the next
+        std::uint32_t triangle = 0; ///< of a model: one that has the vertex
     };
     boost::container::small_vector<Corner, 8> corners; ///< counter-clockwise, seen from outside
     Vec3 normal;                                       ///< of a polygon: outward, of unit length

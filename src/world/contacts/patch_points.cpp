@@ -1,5 +1,6 @@
 #include "world/contacts/patch_points.h"
 
+#include "geometry/point_triangle_distance.h"
 #include "rigid/manifold/triangle_meeting.h"
 
 #include <algorithm>
@@ -134,20 +135,24 @@ private:
         }
     }
 
-    /// How high the surface lies over a point: the first triangle ahead, or the first one behind.
-    [[nodiscard]] std::optional<double> surface_over(const Vec3& p) const {
+    /// A triangle over a point, and how high it lies there.
+    struct Over {
+        double height;
+        std::uint32_t triangle;
+    };
+    /// The first triangle ahead of a point, or the first one behind.
+    [[nodiscard]] std::optional<Over> surface_over(const Vec3& p) const {
         const double x = dot(across_, p), y = dot(upwards_, p), slack = 16 * limits_.rounding;
-        std::optional<double> ahead, behind;
+        std::optional<Over> ahead, behind;
         for (const SeenTriangle& s : seen_) {
             if (x < s.low.x - slack || y < s.low.y - slack || x > s.high.x + slack ||
                 y > s.high.y + slack || !holds(s, x, y, slack))
                 continue;
             const Vec3& n = s.triangle->normal;
             const double height = dot(n, s.triangle->corners[0] - p) / dot(n, up_);
-            if (height >= -slack)
-                ahead = std::min(height, ahead.value_or(HUGE_VAL));
-            else
-                behind = std::max(height, behind.value_or(-HUGE_VAL));
+            std::optional<Over>& nearest = height >= -slack ? ahead : behind;
+            if (!nearest || std::abs(height) < std::abs(nearest->height))
+                nearest = {height, s.triangle->triangle};
         }
         return ahead ? ahead : behind;
     }
@@ -167,8 +172,8 @@ private:
             if (!lower_.holds(p))
                 continue;
             corners_.push_back({dot(across_, p), dot(upwards_, p), v});
-            if (const auto height = surface_over(p))
-                add(p + *height * up_, p, *height, name_of_vertex(v), 0);
+            if (const auto over = surface_over(p))
+                add(p + over->height * up_, p, over->height, name_of_vertex(v), 0, over->triangle);
         }
     }
 
@@ -225,15 +230,15 @@ private:
             return solid_is_a_ ? point_name::vertex_b(v) : point_name::vertex_a(v);
         };
         if (span.from_plane == kNone)
-            add_place(p, vertex(t.vertices[k]), 1);
+            add_place(p, vertex(t.vertices[k]), 1, t.triangle);
         else if (!span.from_is_cut)
-            add_place(p + span.from * (q - p), place_name(edge, span.from_plane), 2);
+            add_place(p + span.from * (q - p), place_name(edge, span.from_plane), 2, t.triangle);
         if (span.to_plane == kNone)
-            add_place(q, vertex(t.vertices[(k + 1U) % 3]), 1);
+            add_place(q, vertex(t.vertices[(k + 1U) % 3]), 1, t.triangle);
         else if (!span.to_is_cut)
-            add_place(p + span.to * (q - p), place_name(edge, span.to_plane), 2);
+            add_place(p + span.to * (q - p), place_name(edge, span.to_plane), 2, t.triangle);
         for (const auto& [share, plane] : turns_over(p, q, span))
-            add_place(p + share * (q - p), place_name(edge, plane), 2);
+            add_place(p + share * (q - p), place_name(edge, plane), 2, t.triangle);
     }
 
     /// Where the planes of the lower side take turns over an edge.
@@ -292,24 +297,25 @@ private:
                 const std::uint64_t before =
                                         part.corners[k == 0 ? part.corners.size() - 1 : k - 1].side,
                                     after = part.corners[k].side;
-                add_place(part.corners[k].at, place_name(t->vertices[0], before << 32U | after), 3);
+                add_place(part.corners[k].at, place_name(t->vertices[0], before << 32U | after), 3,
+                          t->triangle);
             }
         }
     }
 
     /// Adds a place of the surface, if the solid lies over it.
-    void add_place(const Vec3& p, std::uint64_t name, std::uint8_t rank) {
+    void add_place(const Vec3& p, std::uint64_t name, std::uint8_t rank, std::uint32_t triangle) {
         if (const auto entry = lower_.entry(p))
-            add(p, p + *entry * up_, -*entry, name, rank);
+            add(p, p + *entry * up_, -*entry, name, rank, triangle);
     }
     void add(const Vec3& on_surface, const Vec3& on_solid, double depth, std::uint64_t name,
-             std::uint8_t rank) {
+             std::uint8_t rank, std::uint32_t triangle) {
         if (std::abs(depth) <= limits_.rounding)
             depth = 0;
         if (!(depth >= -limits_.margin - limits_.rounding))
             return;
         points_.push_back({on_surface, on_solid, depth, name, dot(across_, on_solid),
-                           dot(upwards_, on_solid), rank});
+                           dot(upwards_, on_solid), rank, triangle});
     }
 
     /// Gives places that lie beside a corner of the solid's lower side its name, so that small motions do
@@ -400,7 +406,12 @@ void add_place_of_features(const Vec3& on_surface, const Vec3& on_solid, const V
             name = solid_is_a ? point_name::vertex_a(solid.numbers[v])
                               : point_name::vertex_b(solid.numbers[v]);
     std::uint64_t edge = 0;
-    for (const PatchTriangle* t : part)
+    std::uint32_t triangle = 0;
+    double nearest_sq = HUGE_VAL;
+    for (const PatchTriangle* t : part) {
+        if (const double sq = nearest_on_triangle(on_surface, t->corners).distance_sq;
+            sq < nearest_sq)
+            nearest_sq = sq, triangle = t->triangle;
         for (std::size_t k = 0; k < 3 && !name; ++k) {
             const Vec3 &p = t->corners[k], &q = t->corners[(k + 1) % 3];
             if (length(p - on_surface) <= near)
@@ -410,6 +421,7 @@ void add_place_of_features(const Vec3& on_surface, const Vec3& on_solid, const V
             if (length(from - dot(from, way) * way) <= kOnLine * solid.reach)
                 edge = edge_key(t->vertices[k], t->vertices[(k + 1) % 3]);
         }
+    }
     const Vec3 across = perpendicular(up);
     const PatchPoint added{on_surface,
                            on_solid,
@@ -417,7 +429,8 @@ void add_place_of_features(const Vec3& on_surface, const Vec3& on_solid, const V
                            name.value_or(place_name(edge, 0xffffffff)),
                            dot(across, on_solid),
                            dot(cross(up, across), on_solid),
-                           2};
+                           2,
+                           triangle};
     // It replaces a point of the same name, and those beside it.
     std::erase_if(points, [&](const PatchPoint& p) {
         return p.feature == added.feature || std::hypot(p.x - added.x, p.y - added.y) <= near;

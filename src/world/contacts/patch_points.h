@@ -19,6 +19,7 @@ struct PatchPoint {
     double x = 0, y = 0; ///< across the direction
     /// Vertices of the solid come before those of the surface, edges of both and places on faces.
     std::uint8_t rank = 0;
+    std::uint32_t triangle = 0; ///< of the surface
 };
 
 struct PatchLimits {

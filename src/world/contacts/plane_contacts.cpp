@@ -13,15 +13,16 @@ ContactFace corners_over_plane(const PlacedModel& surface, const PlaneShape& pla
     const PlacedModel::HalfSpace beyond{plane.point + height * plane.normal, plane.normal};
     surface.for_each_overlap_outside(all, [&](std::uint32_t slot) {
         const Triangle t = surface.world_slot(slot);
-        const auto& vertices = surface.data().mesh().triangles[surface.data().triangle_at(slot)];
+        const std::uint32_t triangle = surface.data().triangle_at(slot);
+        const auto& vertices = surface.data().mesh().triangles[triangle];
         for (std::size_t i = 0; i < 3; ++i)
             if (dot(plane.normal, t[i] - plane.point) <= height)
-                face.corners.push_back({t[i] - origin, vertices[i], 0});
+                face.corners.push_back({t[i] - origin, vertices[i], 0, triangle});
         return beyond;
     });
     // Vertices at one place are one, with the least number.
     const auto order = [](const ContactFace::Corner& c) {
-        return std::array{c.at.x, c.at.y, c.at.z, double(c.vertex)};
+        return std::array{c.at.x, c.at.y, c.at.z, double(c.vertex), double(c.triangle)};
     };
     std::ranges::sort(face.corners, {}, order);
     face.corners.erase(std::unique(face.corners.begin(), face.corners.end(),
@@ -32,6 +33,21 @@ ContactFace corners_over_plane(const PlacedModel& surface, const PlaneShape& pla
     std::ranges::sort(face.corners, {}, &ContactFace::Corner::vertex);
     return face;
 }
+
+namespace {
+
+/// Sets the triangle of each point that is a vertex of a model. The others keep theirs.
+void set_triangles(const ContactFace& corners, bool body_is_a, ContactManifold& manifold) {
+    for (std::uint32_t i = 0; i < manifold.count; ++i)
+        for (const ContactFace::Corner& corner : corners.corners)
+            if (ContactPoint& point = manifold.points[i];
+                point.feature == (body_is_a
+                                      ? feature_name(FeatureKind::vertex_of_a, corner.vertex, 0)
+                                      : feature_name(FeatureKind::vertex_of_b, 0, corner.vertex)))
+                (body_is_a ? point.triangle_a : point.triangle_b) = corner.triangle;
+}
+
+} // namespace
 
 void set_plane_corners(const ContactFace& corners, bool body_is_a, const PlaneShape& plane,
                        const ContactLimits& limits, ContactManifold& manifold) {
@@ -56,6 +72,7 @@ void set_plane_corners(const ContactFace& corners, bool body_is_a, const PlaneSh
     write_points(candidates, frame, limits, manifold);
     if (manifold.count == 0)
         manifold.points[0] = deepest, manifold.count = 1;
+    set_triangles(corners, body_is_a, manifold);
     manifold.points[0].depth = deepest.depth;
     manifold.status = status;
 }

@@ -63,7 +63,7 @@ public:
         m.normal = solid_is_a ? -up : up;
         m.count = 1;
         m.points[0] = point_at(nearest.on_surface, nearest.on_core - radius_ * up,
-                               radius_ - nearest.distance, centre, solid_is_a);
+                               radius_ - nearest.distance, nearest.slot, centre, solid_is_a);
         if (!is_ball_) {
             const std::array contacts{contact_of_end(0, up, centre, solid_is_a),
                                       contact_of_end(1, up, centre, solid_is_a)};
@@ -125,10 +125,13 @@ private:
         });
     }
 
-    [[nodiscard]] static ContactPoint point_at(const Vec3& on_surface, const Vec3& on_solid,
-                                               double depth, const Vec3& centre, bool solid_is_a) {
-        const Vec3 &a = solid_is_a ? on_solid : on_surface, &b = solid_is_a ? on_surface : on_solid;
-        return {centre + a, centre + b, depth, 0};
+    [[nodiscard]] ContactPoint point_at(const Vec3& on_surface, const Vec3& on_solid, double depth,
+                                        std::uint32_t slot, const Vec3& centre,
+                                        bool solid_is_a) const {
+        const std::uint32_t triangle = surface_.data().triangle_at(slot);
+        return solid_is_a
+                   ? ContactPoint{centre + on_solid, centre + on_surface, depth, 0, 0, triangle}
+                   : ContactPoint{centre + on_surface, centre + on_solid, depth, 0, triangle, 0};
     }
 
     /// The contact of an end, along the capsule's normal; none if the normal of the ball there leads another
@@ -138,10 +141,11 @@ private:
         const Vec3& end = ends_[which];
         double nearest_sq = HUGE_VAL;
         Vec3 on_surface;
+        std::uint32_t slot = 0;
         for (const TriangleBelow& t : below_)
             if (const NearestOnTriangle near = nearest_on_triangle(end, t.corners);
                 near.distance_sq < nearest_sq)
-                nearest_sq = near.distance_sq, on_surface = near.point;
+                nearest_sq = near.distance_sq, on_surface = near.point, slot = t.slot;
         const Vec3 up_there = normalized_or_zero(end - on_surface);
         depth_of_end_[which] = std::max(radius_ - std::sqrt(nearest_sq), -margin_);
         if (!leads_same_way(up_there, up))
@@ -155,7 +159,7 @@ private:
         if (depth < -margin_ - kCoreRounding * size_ || out == Vec3{})
             return std::nullopt;
         depth = std::max(depth, -margin_);
-        return point_at(on_solid + depth * up, on_solid, depth, centre, solid_is_a);
+        return point_at(on_solid + depth * up, on_solid, depth, slot, centre, solid_is_a);
     }
 
     /// Returns the contact of the place that lies deepest below the line between the depths of the ends, as
@@ -174,14 +178,9 @@ private:
         }
         if (best == nullptr || radius_ - best->distance < -margin_)
             return std::nullopt;
-        return point_below(best->on_core, up, radius_ - best->distance, centre, solid_is_a);
-    }
-
-    /// The contact of a point of the core, along the capsule's normal.
-    [[nodiscard]] ContactPoint point_below(const Vec3& on_core, const Vec3& up, double depth,
-                                           const Vec3& centre, bool solid_is_a) const {
-        const Vec3 on_solid = on_core - radius_ * up;
-        return point_at(on_solid + depth * up, on_solid, depth, centre, solid_is_a);
+        const Vec3 on_solid = best->on_core - radius_ * up;
+        const double depth = radius_ - best->distance;
+        return point_at(on_solid + depth * up, on_solid, depth, best->slot, centre, solid_is_a);
     }
 
     PlacedModel surface_;

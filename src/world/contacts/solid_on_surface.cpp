@@ -311,7 +311,11 @@ private:
             const Vec3 on_surface = apply(to_world, p.on_surface),
                        on_solid = apply(to_world, p.on_solid);
             m.points[m.count++] = {solid_is_a_ ? on_solid : on_surface,
-                                   solid_is_a_ ? on_surface : on_solid, p.depth, p.feature};
+                                   solid_is_a_ ? on_surface : on_solid,
+                                   p.depth,
+                                   p.feature,
+                                   solid_is_a_ ? 0 : p.triangle,
+                                   solid_is_a_ ? p.triangle : 0};
         }
     }
 

@@ -119,7 +119,8 @@ void SurfacePatch::add(const ConvexFaces& solid, const PlacedModel& surface, std
                 edges[corner.side] = true;
         return edges;
     };
-    const auto& corners = surface.data().mesh().triangles[surface.data().triangle_at(slot)];
+    patch.triangle = surface.data().triangle_at(slot);
+    const auto& corners = surface.data().mesh().triangles[patch.triangle];
     const auto& vertex_of = surface.data().solid().topology.vertex_of;
     patch.vertices = {vertex_of[corners[0]], vertex_of[corners[1]], vertex_of[corners[2]]};
     triangles_.push_back(patch);

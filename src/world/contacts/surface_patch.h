@@ -41,6 +41,7 @@ struct PatchTriangle {
     Triangle corners; ///< in the solid's frame
     Vec3 normal; ///< unit vector, out of the surface's solid; of an open surface towards the solid
     std::array<std::uint32_t, 3> vertices{}; ///< merged
+    std::uint32_t triangle = 0;              ///< its number in the surface
     std::uint32_t region = 0;
     double near_area = 0; ///< of its part within the margin
     Vec3 deep_area; ///< vector area of its part clearly inside the solid; zero if there is none
