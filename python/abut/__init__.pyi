@@ -1217,6 +1217,12 @@ class ContactPoint:
     @property
     def feature(self) -> int:
         """names the two features that make the point; stays while they do"""
+    @property
+    def triangle_a(self) -> int:
+        """of a model or deformable: the triangle of the contact; else 0"""
+    @property
+    def triangle_b(self) -> int:
+        """as triangle_a"""
 
 class ContactRegion:
     """A place where two models meet."""
