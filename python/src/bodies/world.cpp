@@ -47,21 +47,7 @@ py::array pairs_of(const std::vector<BodyPair>& pairs) {
     return rows<std::int64_t>(std::move(numbers));
 }
 
-void bind_world_results(py::module_& module) {
-    RecordBinder<BodyGap>(module, "BodyGap", "How two bodies lie to each other, world frame.")
-        .field("a", &BodyGap::a, "body")
-        .field("b", &BodyGap::b, "body")
-        .field("distance", &BodyGap::distance,
-               "length; 0 if they touch, minus the depth if they interpenetrate")
-        .field("point_a", &BodyGap::point_a, "on a")
-        .field("point_b", &BodyGap::point_b, "on b: point_a + distance * normal, to rounding")
-        .field("normal", &BodyGap::normal, "unit vector from a to b; zero where none is known")
-        .field("triangle_a", &BodyGap::triangle_a, "of a model; else 0")
-        .field("triangle_b", &BodyGap::triangle_b, "of a model; else 0")
-        .field("status", &BodyGap::status,
-               "Status; bound_only: with a model, they go at least so deep into each other; two "
-               "solids, and models that coincide, may be separated by a shorter motion")
-        .done();
+void bind_contacts(py::module_& module) {
     RecordBinder<ContactPoint>(module, "ContactPoint", "A point of a ContactManifold.")
         .field("point_a", &ContactPoint::point_a, "on a")
         .field("point_b", &ContactPoint::point_b, "on b")
@@ -83,6 +69,23 @@ void bind_world_results(py::module_& module) {
         .field("points", &ContactManifold::points, "list of ContactPoint: four, the deepest first")
         .field("status", &ContactManifold::status,
                "Status; bound_only: of two models, along the normal; else as of BodyGap")
+        .done();
+}
+
+void bind_world_results(py::module_& module) {
+    RecordBinder<BodyGap>(module, "BodyGap", "How two bodies lie to each other, world frame.")
+        .field("a", &BodyGap::a, "body")
+        .field("b", &BodyGap::b, "body")
+        .field("distance", &BodyGap::distance,
+               "length; 0 if they touch, minus the depth if they interpenetrate")
+        .field("point_a", &BodyGap::point_a, "on a")
+        .field("point_b", &BodyGap::point_b, "on b: point_a + distance * normal, to rounding")
+        .field("normal", &BodyGap::normal, "unit vector from a to b; zero where none is known")
+        .field("triangle_a", &BodyGap::triangle_a, "of a model; else 0")
+        .field("triangle_b", &BodyGap::triangle_b, "of a model; else 0")
+        .field("status", &BodyGap::status,
+               "Status; bound_only: with a model, they go at least so deep into each other; two "
+               "solids, and models that coincide, may be separated by a shorter motion")
         .done();
     RecordBinder<BodyImpact>(module, "BodyImpact", "A pair of bodies that meet in a step.")
         .field("a", &BodyImpact::a, "body")
@@ -379,6 +382,7 @@ void add_world_estimates(py::class_<Bodies>& type) {
 } // namespace
 
 void bind_world(py::module_& module) {
+    bind_contacts(module);
     bind_world_results(module);
     bind_question_results(module);
     auto world = world_class(module);
