@@ -7,7 +7,7 @@ namespace simulation {
 namespace {
 
 bool is_before(const Contact& a, const Contact& b) {
-    return std::tie(a.pair, a.region) < std::tie(b.pair, b.region);
+    return std::tie(a.pair, a.pieces, a.region) < std::tie(b.pair, b.pieces, b.region);
 }
 
 /// Returns the softness of the springs between two bodies.
@@ -42,6 +42,7 @@ void Contacts::add(const abut::ContactManifold& manifold, BodyNumber number_a, B
     const Body &a = bodies[number_a], &b = bodies[number_b];
     Contact contact;
     contact.pair = {manifold.a, manifold.b}, contact.region = manifold.region;
+    contact.pieces = {manifold.piece_a, manifold.piece_b};
     contact.a = number_a, contact.b = number_b;
     contact.friction = std::sqrt(a.material.friction * b.material.friction);
     contact.bounce = std::max(a.material.bounce, b.material.bounce);

@@ -24,6 +24,7 @@ struct ContactPoint {
 /// One region where two bodies touch.
 struct Contact {
     abut::BodyPair pair;
+    std::array<std::uint32_t, 2> pieces{}; ///< of compounds
     std::uint32_t region = 0;
     BodyNumber a = 0, b = 0;
     double friction = 0, bounce = 0, rolling = 0;

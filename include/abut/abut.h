@@ -11,6 +11,7 @@
 #include <abut/clash.h>
 #include <abut/clash_groups.h>
 #include <abut/clash_review.h>
+#include <abut/compound.h>
 #include <abut/contacts.h>
 #include <abut/convex.h>
 #include <abut/convex_pieces.h>

@@ -29,8 +29,11 @@ struct ContactManifold {
     BodyId a, b;              ///< a.index < b.index
     Vec3 normal;              ///< unit vector from a to b
     std::uint32_t region = 0; ///< names the contact region of this pair; 0 for convex bodies
-    std::uint32_t count = 0;  ///< of the points that are set
-    std::array<ContactPoint, 4> points; ///< the deepest first; their names differ
+    /// Of compounds: their pieces, each pair of which has regions and names of its own. Else 0.
+    std::uint32_t piece_a = 0, piece_b = 0;
+    std::uint64_t user_data_a = 0, user_data_b = 0; ///< BodyOptions::user_data of the bodies
+    std::uint32_t count = 0;                        ///< of the points that are set
+    std::array<ContactPoint, 4> points;             ///< the deepest first; their names differ
     /// exact: to rounding. bound_only: if both bodies are models, depths are those of lines along
     /// the normal; else as of BodyGap.
     Status status = Status::exact;

@@ -2,6 +2,7 @@
 
 #include <abut/body_id.h>
 #include <abut/broad_phase.h>
+#include <abut/compound.h>
 #include <abut/contacts.h>
 #include <abut/convex.h>
 #include <abut/curved_shapes.h>
@@ -26,11 +27,13 @@
 /// explains the algorithms; docs/simulation-loop.md explains their use in a simulator.
 namespace abut {
 
-/// Decides which bodies a body can meet.
+/// Decides which bodies a body can meet, and what its contacts carry.
 struct BodyOptions {
     bool is_static = false;   ///< static bodies do not meet each other
     std::uint32_t groups = 1; ///< bit set: the groups that the body belongs to
     std::uint32_t mask = ~0U; ///< bit set: the groups that it meets; both bodies must agree
+    std::uint64_t user_data =
+        0; ///< the caller's, such as the place of a material; contacts carry it
 };
 
 struct WorldOptions {
@@ -61,8 +64,9 @@ struct BodyGap {
     /// exact: to rounding. bound_only: bodies of which one is a model are at least this deep in
     /// each other. For two solids, for models that coincide, and for motions across a face
     /// (World::penetration), a motion of this length separates them, but no proof excludes a shorter
-    /// one.
+    /// one. Of compounds with several pieces that meet: this motion separates only the deepest two.
     Status status = Status::exact;
+    std::uint32_t piece_a = 0, piece_b = 0; ///< of compounds: the nearest pieces; else 0
 };
 
 /// The motion of a body in a step.
@@ -74,6 +78,7 @@ struct BodyMotion {
 struct BodyImpact {
     BodyId a, b;
     Impact impact; ///< as `time_of_impact`; triangle numbers are 0 for bodies without triangles
+    std::uint32_t piece_a = 0, piece_b = 0; ///< of compounds: the first pieces that meet; else 0
 };
 
 /// Bounds on a body's future motion. Its origin moves as x + v t + a t^2 / 2, plus the effect of
@@ -103,7 +108,7 @@ inline constexpr bool kIsRigidShape =
     std::is_convertible_v<Shape, Sphere> || std::is_convertible_v<Shape, Capsule> ||
     std::is_convertible_v<Shape, Box3> || std::is_convertible_v<Shape, Cylinder> ||
     std::is_convertible_v<Shape, Cone> || std::is_convertible_v<Shape, Ellipsoid> ||
-    std::is_convertible_v<Shape, HalfSpace>;
+    std::is_convertible_v<Shape, HalfSpace> || std::is_convertible_v<Shape, Compound>;
 
 /// Which bodies a question is about.
 struct BodyQuery {
@@ -122,13 +127,15 @@ struct BodyRayHit {
     /// a solid, or in the plane of a triangle.
     Vec3 normal;
     std::uint32_t triangle = 0; ///< of models and deformables; else 0
+    std::uint32_t piece = 0;    ///< of compounds; else 0
 };
 
 /// The first body that a moving shape meets.
 struct BodySweepHit {
     bool meet = false; ///< if false, only the impact's time is set: 1
     BodyId body;
-    Impact impact; ///< as `time_of_impact` of the body, a, and the shape, b
+    Impact impact;           ///< as `time_of_impact` of the body, a, and the shape, b
+    std::uint32_t piece = 0; ///< of compounds; else 0
 };
 
 class BodyTree;
@@ -142,6 +149,9 @@ class WorldData;
 /// at the start of its step. Models, convex bodies and deformables share their data with the world. So
 /// the caller may move a `Deformable` to another variable; if it is destroyed or replaced, the body
 /// stays as it was.
+///
+/// A compound is one body. What a query says of it holds for the union of its pieces: a pair is listed once,
+/// with its nearest or first pieces, and only contacts list all pairs of pieces.
 ///
 /// Queries with a progress report the fraction of finished pairs, and end with Error{interrupted}
 /// if its stop flag is set; the world is then as `update` leaves it. Changes of a world, `update`
@@ -172,6 +182,7 @@ public:
     BodyId add(const Cone& cone, const Pose& pose, const BodyOptions& options = {});
     BodyId add(const Ellipsoid& ellipsoid, const Pose& pose, const BodyOptions& options = {});
     BodyId add(const HalfSpace& half_space, const Pose& pose, const BodyOptions& options = {});
+    BodyId add(const Compound& compound, const Pose& pose, const BodyOptions& options = {});
     BodyId add(const Deformable& surface, const BodyOptions& options = {});
     /// Nobody could move a temporary.
     BodyId add(Deformable&& surface, const BodyOptions& options = {}) = delete;
@@ -187,12 +198,15 @@ public:
     void move(BodyId body, const Pose& pose);
     /// Tells the world that a deformable body's surface has a new step.
     ///
-    /// Errors      of this function and the next two: Error{bad_argument} if the id is not valid.
+    /// Errors      of this function and the next four: Error{bad_argument} if the id is not valid.
     void refresh(BodyId body);
     /// Removes a body. Lists that were returned before do not change; queries skip removed bodies.
     void remove(BodyId body);
     /// Cost        the next update finds all pairs anew.
     void set_options(BodyId body, const BodyOptions& options);
+    [[nodiscard]] const BodyOptions& options(BodyId body) const;
+    /// Changes that member of the body's options only, at no cost.
+    void set_user_data(BodyId body, std::uint64_t user_data);
     /// Tells the world that the answers of its filter have changed. Cost as `set_options`.
     void refilter();
 
@@ -383,8 +397,9 @@ requires(!kIsRigidShape<Other>) BodyId World::add(const Other& /*other*/, const 
                                                   const BodyOptions& /*options*/) {
     static_assert(
         kIsRigidShape<Other>,
-        "World::add takes a Model, Convex, Sphere, Capsule, Box3, Cylinder, Cone, Ellipsoid or "
-        "HalfSpace with a pose, or a Deformable without one. A Mesh goes into one of these first.");
+        "World::add takes a Model, Convex, Sphere, Capsule, Box3, Cylinder, Cone, Ellipsoid, "
+        "HalfSpace or Compound with a pose, or a Deformable without one. A Mesh goes into one of "
+        "these first.");
     return {};
 }
 

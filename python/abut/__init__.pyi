@@ -28,6 +28,7 @@ _ModelPath = Union[_Path, "ModelPath"]
 _Mesh = Union["Mesh", "Model", _Path, _Faces, _Cells]
 _Point = tuple[float, float, float]
 _OnePose = Union[None, "Pose", tuple[Sequence[float], Sequence[float]]]
+_RigidShape = Union["Model", "Convex", "Sphere", "Capsule", "Box3", "Cylinder", "Cone", "Ellipsoid", "HalfSpace"]
 _Poses = Union[_OnePose, ArrayLike, Sequence["Pose"], tuple[ArrayLike, ArrayLike]]
 _Progress = Union[Callable[[str, float], object], None]
 _Bodies = Union[int, ArrayLike]
@@ -523,6 +524,12 @@ class BodyGap:
     def triangle_b(self) -> int:
         """of a model; else 0"""
     @property
+    def piece_a(self) -> int:
+        """of a Compound; else 0"""
+    @property
+    def piece_b(self) -> int:
+        """of a Compound; else 0"""
+    @property
     def status(self) -> Status:
         """Status; bound_only: with a model, they go at least so deep into each other; two solids, and models that coincide, may be separated by a shorter motion"""
 
@@ -562,6 +569,12 @@ class BodyImpact:
     @property
     def status(self) -> Status:
         """Status"""
+    @property
+    def piece_a(self) -> int:
+        """of a Compound; else 0"""
+    @property
+    def piece_b(self) -> int:
+        """of a Compound; else 0"""
 
 class BodyRayHit:
     """Where a ray first meets a body. True if it meets one."""
@@ -584,6 +597,9 @@ class BodyRayHit:
     @property
     def triangle(self) -> int:
         """of a model or deformable; else 0"""
+    @property
+    def piece(self) -> int:
+        """of a Compound; else 0"""
     def __bool__(self) -> bool: ...
 
 class BodySweepHit:
@@ -622,6 +638,9 @@ class BodySweepHit:
     @property
     def status(self) -> Status:
         """Status"""
+    @property
+    def piece(self) -> int:
+        """of a Compound; else 0"""
     def __bool__(self) -> bool: ...
 
 class Box3:
@@ -1159,6 +1178,16 @@ class ColourGroup:
     def parts(self) -> int:
         """how many"""
 
+class Compound:
+    """Several rigid shapes that move as one body of a World.
+
+    pieces  a list of shapes, each alone or as (shape, pose) in the compound's frame; or a ConvexPieces
+
+    Raises Error (bad_argument) if there is no piece; the message names a piece that is not valid.
+    """
+    def __init__(self, pieces: Iterable[_RigidShape | tuple[_RigidShape, _OnePose | ArrayLike]] | ConvexPieces) -> None: ...
+    def __len__(self) -> int: ...
+
 class Cone:
     """The solid between an apex and a disc around `base`, across the axis."""
     def __init__(self, apex: ArrayLike, base: ArrayLike, radius: float) -> None: ...
@@ -1187,6 +1216,18 @@ class ContactManifold:
     @property
     def region(self) -> int:
         """names the contact region of this pair; 0 for convex bodies"""
+    @property
+    def piece_a(self) -> int:
+        """of a Compound; else 0"""
+    @property
+    def piece_b(self) -> int:
+        """of a Compound; else 0"""
+    @property
+    def user_data_a(self) -> int:
+        """of the body, as add takes it"""
+    @property
+    def user_data_b(self) -> int:
+        """as user_data_a"""
     @property
     def count(self) -> int:
         """of the points that are set"""
@@ -4490,14 +4531,15 @@ class World:
     for any number of threads, and stop at Ctrl-C; the world is as before then.
     """
     def __init__(self, *, broad_phase: BroadPhaseMethod | str = ..., filter: Callable[[int, int], bool] | None = ...) -> None: ...
-    def add(self, shape: Model | Convex | Sphere | Capsule | Box3 | Cylinder | Cone | Ellipsoid | HalfSpace | Deformable, pose: _Poses = ..., *, is_static: bool = ..., groups: int = ..., mask: int = ...) -> int:
-        """Adds a Model, Convex, Sphere, Capsule, Box3, Cylinder, Cone, Ellipsoid, HalfSpace or Deformable;
+    def add(self, shape: Model | Convex | Sphere | Capsule | Box3 | Cylinder | Cone | Ellipsoid | HalfSpace | Compound | Deformable, pose: _Poses = ..., *, is_static: bool = ..., groups: int = ..., mask: int = ..., user_data: int = ...) -> int:
+        """Adds a Model, Convex, Sphere, Capsule, Box3, Cylinder, Cone, Ellipsoid, HalfSpace, Compound or Deformable;
         returns its body, an int.
 
         pose       rigid: a matrix of shape (4, 4), (translation, quaternion) or a Pose; none for a Deformable
         is_static  static bodies do not meet each other
         groups     bits: the groups that the body belongs to
         mask       bits: the groups that it meets; both bodies must agree
+        user_data  a number of yours, at least 0; contacts carry it
 
         Raises Error (bad_argument) if a value is not finite or a shape is not valid; ValueError for a matrix that is
         no rotation and translation.
@@ -4511,8 +4553,12 @@ class World:
         """Says that a deformable has another step."""
     def remove(self, body: int) -> None:
         """Removes a body. Error (bad_argument) if it is not valid."""
-    def set_options(self, body: int, *, is_static: bool = ..., groups: int = ..., mask: int = ...) -> None:
+    def set_options(self, body: int, *, is_static: bool = ..., groups: int = ..., mask: int = ..., user_data: int = ...) -> None:
         """Changes which bodies the body can meet."""
+    def options(self, body: int) -> dict[str, Any]:
+        """What set_options takes: a dict."""
+    def set_user_data(self, body: int, user_data: int) -> None:
+        """Changes the number that contacts of the body carry."""
     def refilter(self) -> None:
         """Says that the filter has changed."""
     def is_valid(self, body: int) -> bool: ...

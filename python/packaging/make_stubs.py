@@ -42,6 +42,7 @@ _ModelPath = Union[_Path, "ModelPath"]
 _Mesh = Union["Mesh", "Model", _Path, _Faces, _Cells]
 _Point = tuple[float, float, float]
 _OnePose = Union[None, "Pose", tuple[Sequence[float], Sequence[float]]]
+_RigidShape = Union["Model", "Convex", "Sphere", "Capsule", "Box3", "Cylinder", "Cone", "Ellipsoid", "HalfSpace"]
 _Poses = Union[_OnePose, ArrayLike, Sequence["Pose"], tuple[ArrayLike, ArrayLike]]
 _Progress = Union[Callable[[str, float], object], None]
 _Bodies = Union[int, ArrayLike]
@@ -99,7 +100,8 @@ OWN_PARAMETERS = {
     "Walk.parts_in_way": {"absolute_error": "float | None"}, "Carry.move_to": {"mode": "CarryMode | str"},
     "Walker.set_mode": {"mode": "WalkerMode | str"}, "Walk.first_hit": {"origin": "Ray | ArrayLike"},
     "build_levels": {"store": "_Path"}, "Probe": {"shape": "Model | Convex | Sphere | Capsule | Box3"}, "World.move": {"body": "_Bodies"},
-    "World.add": {"shape": "Model | Convex | Sphere | Capsule | Box3 | Cylinder | Cone | Ellipsoid | HalfSpace | Deformable"},
+    "World.add": {"shape": "Model | Convex | Sphere | Capsule | Box3 | Cylinder | Cone | Ellipsoid | HalfSpace | Compound | Deformable"},
+    "Compound": {"pieces": "Iterable[_RigidShape | tuple[_RigidShape, _OnePose | ArrayLike]] | ConvexPieces"},
     "World.first_hit": {"origin": "Ray | ArrayLike", "filter": "Callable[[int], bool] | None"}, "World.all_hits": {"origin": "Ray | ArrayLike", "filter": "Callable[[int], bool] | None"},
     "World.overlaps": {"shape": "Model | Convex | Sphere | Capsule | Box3 | Cylinder | Cone | Ellipsoid | HalfSpace", "filter": "Callable[[int], bool] | None"},
     "World.sweep": {"shape": "Model | Convex | Sphere | Capsule | Box3 | Cylinder | Cone | Ellipsoid | HalfSpace", "filter": "Callable[[int], bool] | None", "motion": "Motion"},

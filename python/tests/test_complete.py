@@ -30,7 +30,7 @@ OTHER_MEMBERS = {
     "Model": {"mesh": None}, "Mesh": {"positions": "vertices", "triangles": "faces"},
     "Error": {"code": None}, "Pose": {}, "Motion": {},
     "Convex": {"face_count": "len(faces)", "face": "faces"}, "Deformable": {"triangles": "faces"},
-    "World": {"size": "__len__"}, "ConvexPieces": {}, "Crew": {"send": "within the job", "receive": "within the job"},
+    "World": {"size": "__len__"}, "Compound": {"size": "__len__"}, "ConvexPieces": {}, "Crew": {"send": "within the job", "receive": "within the job"},
     "PartQuery": {"condition": "inner"}, "ClashQuery": {"condition": "inner"}, "Clash": {"rule": None}, "ClashReport": {"frame": "up"}, "ListedClash": {"part": "part_ids", "name": "names", "type": "types", "file": "files"},
     "OrientedBox": {"world_from_box": "pose"}, "Intersection": {"corners": "arrays of Contacts.segments"},
     "ConvexWarmStart": {"kind": "inner", "pairs": "inner", "deepest": "inner"},

@@ -215,3 +215,35 @@ def test_rays_overlaps_and_sweeps():
         world.first_hit([0, 0, 0], [0, 0, 0])
     with pytest.raises(TypeError):
         world.overlaps("a cup")
+
+
+def test_compounds_and_user_data():
+    table = abut.Compound([abut.Box3((-1, -1, 0.7), (1, 1, 0.8)),
+                           (abut.Capsule(abut.Segment((0, 0, 0.1), (0, 0, 0.7)), 0.1), ((0.5, 0, 0), (1, 0, 0, 0)))])
+    assert len(table) == 2
+    world = abut.World()
+    floor = world.add(abut.Box3((-5, -5, -1), (5, 5, 0)), is_static=True, user_data=3)
+    body = world.add(table, ((0, 0, -0.01), (1, 0, 0, 0)), user_data=2**40)
+    assert len(world) == 2 and world.options(body)["user_data"] == 2**40
+    contacts = world.contact_manifolds()
+    assert [(m.a, m.b, m.piece_b, m.user_data_a, m.user_data_b) for m in contacts] == [(floor, body, 1, 3, 2**40)]
+    world.set_user_data(body, 4)
+    assert world.contact_manifolds()[0].user_data_b == 4
+    gap, = world.penetration()
+    assert gap.piece_a == 0 and gap.piece_b == 1 and gap.distance == pytest.approx(-0.01)
+    hit = world.first_hit((0, 0, 5), (0, 0, -1))
+    assert hit.body == body and hit.piece == 0
+    with pytest.raises(abut.Error, match="piece"):
+        abut.Compound([])
+    with pytest.raises(TypeError):
+        abut.Compound([3])
+
+
+def test_a_solid_as_convex_pieces():
+    box = abut.Model([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)],
+                     [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
+                      [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]])
+    world = abut.World()
+    world.add(abut.Compound(abut.ConvexPieces(box)))
+    world.add(abut.Sphere((1.5, 0.5, 0.5), 1))
+    assert len(world.collide()) == 1

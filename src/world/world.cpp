@@ -9,7 +9,11 @@
 #include "world/contacts/body_contacts.h"
 #include "world/contacts/near_pairs.h"
 #include "world/narrow_phase/world_data.h"
+#include "world/queries/body_errors.h"
 #include "world/queries/body_tree.h"
+#include "world/queries/compound_data.h"
+#include "world/queries/find_pairs.h"
+#include "world/queries/piece_results.h"
 #include "world/schedule/body_impact.h"
 #include "world/schedule/time_to_collision_schedule.h"
 
@@ -26,36 +30,6 @@ namespace abut {
 
 namespace {
 
-/// Calls work() and prefixes the message of an error with the body's index.
-template <typename Work>
-auto naming(BodyId id, const Work& work) {
-    try {
-        return work();
-    } catch (const Error& error) {
-        throw Error(error.code(), "body " + std::to_string(id.index) + ": " + error.what());
-    }
-}
-
-/// Returns whether a pose is where a body is, but for rounding.
-bool is_same_place(const Body& body, const Pose& pose) {
-    // A program that multiplies quaternions and adds positions loses some roundings in each step. This
-    // allows for some thousand of them.
-    constexpr double kSamePlace = 0x1p-40;
-    const Transform& here = body.world_from_body;
-    const Transform there = pose;
-    const double size = length(body.own_bounds.upper - body.own_bounds.lower);
-    const double far = std::max({std::abs(here.m[9]), std::abs(here.m[10]), std::abs(here.m[11]),
-                                 std::isfinite(size) ? size : 0});
-    for (std::size_t i = 0; i < here.m.size(); ++i)
-        if (!(std::abs(here.m[i] - there.m[i]) <= kSamePlace * (i < 9 ? 1 : far)))
-            return false;
-    return true;
-}
-
-void require_rigid(const Body& body) {
-    require(!is_deformable(body.shape), "is deformable: it moves as its own step says");
-}
-
 template <typename Shape>
 BodyId add_to(WorldData& data, const Shape& make_shape, const Pose& pose,
               const BodyOptions& options) {
@@ -70,57 +44,33 @@ std::vector<BodyPair> with_ids(const WorldData& data, const std::vector<IndexPai
     result.reserve(pairs.size());
     for (const IndexPair pair : pairs)
         result.push_back(data.ids_of(pair));
+    if (data.has_pieces())
+        unite_pieces(result);
     return result;
 }
 
-/// Calls append(pair, k, results) for the k-th pair, in parallel. Sets the results to all of them, in order.
-///
-/// In          parts: memory that is used again. expected: number of results, about.
-template <typename Result, typename Append>
-void find_all(const Progress& progress, std::string_view stage, const std::vector<IndexPair>& pairs,
-              const Append& append, std::vector<std::vector<Result>>& parts,
-              std::vector<Result>& results, std::size_t expected = 0) {
-    constexpr std::size_t kPairsOfTask = 16;
-    const StopScope stopping(progress);
-    ProgressMeter meter(progress, stage, pairs.size());
-    results.clear();
-    results.reserve(expected);
-    const auto append_task = [&](std::size_t task, std::vector<Result>& part) {
-        const std::size_t end = std::min(pairs.size(), (task + 1) * kPairsOfTask);
-        for (std::size_t k = task * kPairsOfTask; k < end; ++k)
-            append(pairs[k], k, part);
-        meter.advance(end - task * kPairsOfTask);
-    };
-    const std::size_t tasks = (pairs.size() + kPairsOfTask - 1) / kPairsOfTask;
-    if (is_sequential()) {
-        for (std::size_t task = 0; task < tasks; ++task) {
-            poll_stop();
-            append_task(task, results);
-        }
-        return;
-    }
-    if (parts.size() < tasks)
-        parts.resize(tasks);
-    parallel_for(tasks, 1, [&](std::size_t task) {
-        parts[task].clear();
-        append_task(task, parts[task]);
-    });
-    for (std::size_t task = 0; task < tasks; ++task)
-        results.insert(results.end(), parts[task].begin(), parts[task].end());
+/// Those of sorted pairs that are not among others.
+template <typename Pair>
+std::vector<Pair> without(const std::vector<Pair>& pairs, const std::vector<Pair>& others) {
+    std::vector<Pair> result;
+    std::set_difference(pairs.begin(), pairs.end(), others.begin(), others.end(),
+                        std::back_inserter(result));
+    return result;
 }
 
-/// As find_all, where find(pair, k) returns a result or none.
-template <typename Result, typename Find>
-void find_each(const Progress& progress, std::string_view stage,
-               const std::vector<IndexPair>& pairs, const Find& find,
-               std::vector<std::vector<Result>>& parts, std::vector<Result>& results) {
-    find_all<Result>(
-        progress, stage, pairs,
-        [&](IndexPair pair, std::size_t k, std::vector<Result>& part) {
-            if (std::optional<Result> result = find(pair, k))
-                part.push_back(*result);
-        },
-        parts, results);
+/// The pairs of bodies at the update before the last one.
+std::vector<BodyPair> earlier_pairs(const WorldData& data) {
+    const BroadPhase& now = data.broad_phase();
+    std::vector<IndexPair> pairs = without(now.pairs(), now.begun());
+    pairs.insert(pairs.end(), now.ended().begin(), now.ended().end());
+    return with_ids(data, pairs);
+}
+
+/// Sets the ids and pieces of a result of two bodies.
+template <typename Result>
+void name_bodies(const WorldData& data, IndexPair pair, Result& result) {
+    result.a = data.id_of(pair.a()), result.b = data.id_of(pair.b());
+    result.piece_a = data.bodies()[pair.a()].piece, result.piece_b = data.bodies()[pair.b()].piece;
 }
 
 } // namespace
@@ -169,6 +119,12 @@ BodyId World::add(const HalfSpace& half_space, const Pose& pose, const BodyOptio
     return add_to(
         *data_, [&] { return shape_of(half_space); }, pose, options);
 }
+BodyId World::add(const Compound& compound, const Pose& pose, const BodyOptions& options) {
+    return naming(data_->next_id(), [&] {
+        require_point(pose.translation, "position");
+        return data_->add(compound.data().pieces, pose, options);
+    });
+}
 BodyId World::add(const Deformable& surface, const BodyOptions& options) {
     return data_->add(shape_of(shared(surface)), {}, options);
 }
@@ -192,6 +148,12 @@ void World::set_options(BodyId body, const BodyOptions& options) {
     schedule_->forget();
     near_pairs_->forget();
 }
+const BodyOptions& World::options(BodyId body) const {
+    return data_->body(body).options;
+}
+void World::set_user_data(BodyId body, std::uint64_t user_data) {
+    data_->set_user_data(body, user_data);
+}
 void World::refilter() {
     data_->refilter();
     schedule_->forget();
@@ -209,7 +171,12 @@ const Transform& World::world_from_body(BodyId body) const {
 }
 Box3 World::box(BodyId body) const {
     static_cast<void>(data_->body(body)); // throws if the id is not valid
-    return data_->boxes()[body.index];
+    Box3 all;
+    data_->for_each_piece(body.index, [&](std::uint32_t index) {
+        if (const Box3& box = data_->boxes()[index]; !is_empty(box))
+            extend(all, box.lower), extend(all, box.upper);
+    });
+    return all;
 }
 
 void World::update() {
@@ -219,9 +186,13 @@ std::vector<BodyPair> World::pairs() const {
     return with_ids(*data_, data_->broad_phase().pairs());
 }
 std::vector<BodyPair> World::begun() const {
+    if (data_->has_pieces())
+        return without(pairs(), earlier_pairs(*data_));
     return with_ids(*data_, data_->broad_phase().begun());
 }
 std::vector<BodyPair> World::ended() const {
+    if (data_->has_pieces())
+        return without(earlier_pairs(*data_), pairs());
     return with_ids(*data_, data_->broad_phase().ended());
 }
 
@@ -242,6 +213,8 @@ void World::collide(std::vector<BodyPair>& pairs, const Progress& progress) {
             return data_->ids_of(pair);
         },
         data_->parts().pairs, pairs);
+    if (data_->has_pieces())
+        unite_pieces(pairs);
 }
 
 std::vector<BodyGap> World::penetration(const Progress& progress) {
@@ -265,10 +238,12 @@ void World::penetration(std::vector<BodyGap>& gaps, const Progress& progress) {
             BodyGap gap = gap_between(a, b, both_convex ? 0 : HUGE_VAL, Depths::yes, warm_start);
             if (both_convex && gap.distance > 0)
                 return std::nullopt;
-            std::tie(gap.a, gap.b) = std::pair(data_->id_of(pair.a()), data_->id_of(pair.b()));
+            name_bodies(*data_, pair, gap);
             return gap;
         },
         data_->parts().gaps, gaps);
+    if (data_->has_pieces())
+        unite_pieces(gaps);
 }
 
 std::vector<BodyGap> World::within(double distance, const Progress& progress) {
@@ -288,10 +263,12 @@ std::vector<BodyGap> World::within(double distance, const Progress& progress) {
                                              std::nextafter(distance, HUGE_VAL), warm_start);
             if (gap.distance > distance)
                 return std::nullopt;
-            std::tie(gap.a, gap.b) = std::pair(data_->id_of(pair.a()), data_->id_of(pair.b()));
+            name_bodies(*data_, pair, gap);
             return gap;
         },
         data_->parts().gaps, gaps);
+    if (data_->has_pieces())
+        unite_pieces(gaps);
     return gaps;
 }
 
@@ -311,66 +288,20 @@ void World::contact_manifolds(std::vector<ContactManifold>& manifolds, double ma
     find_all<ContactManifold>(
         progress, "contacts", margin > 0 ? near_pairs_->pairs() : data_->broad_phase().pairs(),
         [&](IndexPair pair, std::size_t k, std::vector<ContactManifold>& part) {
-            append_contacts({data_->placed(pair.a()), data_->placed(pair.b()), data_->ids_of(pair),
-                             data_->placements_of(pair)},
-                            margin, warm_starts[k], part);
+            const std::size_t first = part.size();
+            append_contacts(
+                {data_->placed(pair.a()), data_->placed(pair.b()), data_->placements_of(pair)},
+                margin, warm_starts[k], part);
+            for (std::size_t i = first; i < part.size(); ++i) {
+                name_bodies(*data_, pair, part[i]);
+                part[i].user_data_a = data_->bodies()[pair.a()].options.user_data;
+                part[i].user_data_b = data_->bodies()[pair.b()].options.user_data;
+            }
         },
         data_->parts().manifolds, manifolds, data_->parts().manifolds_found);
     data_->parts().manifolds_found = manifolds.size();
-}
-
-std::vector<BodyImpact> World::time_of_impact(const std::vector<BodyMotion>& motions,
-                                              const ImpactOptions& options) {
-    require_not_negative(options.absolute_error.value_or(0), "absolute error");
-    const std::vector<Body>& bodies = data_->bodies();
-    std::vector<Motion> motion_of(bodies.size());
-    std::vector<std::uint8_t> named(bodies.size(), 0), moves(bodies.size(), 0);
-    for (const BodyMotion& each : motions) {
-        static_cast<void>(data_->body(each.body)); // throws if the id is not valid
-        naming(each.body, [&] {
-            require_rigid(bodies[each.body.index]);
-            require(named[each.body.index] == 0, "moves twice in one step");
-            static_cast<void>(at(each.motion, 1)); // throws if the motion is not valid
-            require(is_same_place(bodies[each.body.index], each.motion.start),
-                    "its motion does not start where the body is");
-        });
-        motion_of[each.body.index] = each.motion;
-        named[each.body.index] = 1;
-        moves[each.body.index] =
-            each.motion.velocity == Vec3{} && each.motion.angular_velocity == Vec3{} ? 0 : 1;
-    }
-    data_->update_if_changed();
-    std::vector<Box3> swept(bodies.size());
-    parallel_for(bodies.size(), 64, [&](std::size_t i) {
-        const Body& body = bodies[i];
-        if (!body.alive)
-            return;
-        if (named[i] == 0)
-            motion_of[i] = Motion::fixed(body.pose);
-        if (const auto* surface = std::get_if<DeformableShape>(&body.shape))
-            moves[i] = surface->surface->data().is_at_rest() ? 0 : 1;
-        swept[i] = swept_bounds({body.shape, body.own_bounds, motion_of[i]});
-    });
-    const std::vector<IndexPair> pairs =
-        overlapping_boxes(swept, 0, [&](std::uint32_t i, std::uint32_t k) {
-            return (moves[i] != 0 || moves[k] != 0) && data_->may_meet(i, k);
-        });
-    ImpactOptions each = options;
-    each.progress = {}; // find_each reports and polls for all pairs
-    std::vector<std::vector<BodyImpact>> parts;
-    std::vector<BodyImpact> impacts;
-    find_each<BodyImpact>(
-        options.progress, "impacts", pairs,
-        [&](IndexPair pair, std::size_t /*k*/) -> std::optional<BodyImpact> {
-            const Body &a = bodies[pair.a()], &b = bodies[pair.b()];
-            const Impact impact = body_impact({a.shape, a.own_bounds, motion_of[pair.a()]},
-                                              {b.shape, b.own_bounds, motion_of[pair.b()]}, each);
-            if (!impact.meet)
-                return std::nullopt;
-            return BodyImpact{data_->id_of(pair.a()), data_->id_of(pair.b()), impact};
-        },
-        parts, impacts);
-    return impacts;
+    if (data_->has_pieces())
+        unite_pieces(manifolds);
 }
 
 void World::set_speed(BodyId body, const SpeedBounds& bounds) {
@@ -384,13 +315,17 @@ void World::set_speed(BodyId body, const SpeedBounds& bounds) {
             require(bound >= 0 && bound < HUGE_VAL,
                     "bounds of a speed must not be negative, and finite");
     });
-    schedule_->set_speed(body.index, bounds);
+    data_->for_each_piece(body.index,
+                          [&](std::uint32_t index) { schedule_->set_speed(index, bounds); });
 }
 
 std::vector<BodyPair> World::advance(double time, const Progress& progress) {
     require(time >= 0 && time < HUGE_VAL, "time must not be negative, and finite");
     data_->update_if_changed();
-    return schedule_->advance(time, progress);
+    std::vector<BodyPair> touching = schedule_->advance(time, progress);
+    if (data_->has_pieces())
+        unite_pieces(touching);
+    return touching;
 }
 double World::next_event() {
     data_->update_if_changed();
@@ -405,7 +340,13 @@ double World::time_to_collision(BodyId a, BodyId b) {
     static_cast<void>(data_->body(a)), static_cast<void>(data_->body(b)); // throw if not valid
     require(a.index != b.index, "a time to collision needs two bodies");
     data_->update_if_changed();
-    return schedule_->time_to_collision(a.index, b.index);
+    double first = HUGE_VAL;
+    data_->for_each_piece(a.index, [&](std::uint32_t i) {
+        data_->for_each_piece(b.index, [&](std::uint32_t k) {
+            first = std::min(first, schedule_->time_to_collision(i, k));
+        });
+    });
+    return first;
 }
 const ScheduleCounters& World::schedule_counters() const noexcept {
     return schedule_->counters();

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <tuple>
 #include <variant>
 
 namespace abut {
@@ -26,10 +27,26 @@ bool is_asked(const WorldData& data, std::uint32_t index, const BodyQuery& query
            (!query.filter || query.filter(data.id_of(index)));
 }
 
-/// Returns whether a hit comes before another one: at a smaller parameter, or at the same one and of a body
-/// of lower index.
+/// Returns whether a hit comes before another one: earlier, or as early and of a body or piece of lower number.
 bool comes_first(const BodyRayHit& hit, const BodyRayHit& other) {
-    return hit.t != other.t ? hit.t < other.t : hit.body < other.body;
+    return std::tie(hit.t, hit.body, hit.piece) < std::tie(other.t, other.body, other.piece);
+}
+
+bool comes_first(const BodySweepHit& hit, const BodySweepHit& other) {
+    return std::tie(hit.impact.time, hit.body, hit.piece) <
+           std::tie(other.impact.time, other.body, other.piece);
+}
+
+/// Removes all hits of a body but the first.
+void keep_first_of_body(std::vector<BodyRayHit>& hits) {
+    std::vector<bool> is_hit;
+    std::erase_if(hits, [&](const BodyRayHit& hit) {
+        if (hit.body.index >= is_hit.size())
+            is_hit.resize(hit.body.index + 1);
+        const bool again = is_hit[hit.body.index];
+        is_hit[hit.body.index] = true;
+        return again;
+    });
 }
 
 } // namespace
@@ -51,7 +68,7 @@ BodyRayHit World::first_hit(const Ray& ray, const BodyQuery& query) {
             Ray rest = ray;
             rest.t_max = std::min(ray.t_max, first.t);
             BodyRayHit hit = ray_body_hit(data_->placed(index), rest, {});
-            hit.body = data_->id_of(index);
+            hit.body = data_->id_of(index), hit.piece = data_->bodies()[index].piece;
             if (hit.meet && (!first.meet || comes_first(hit, first)))
                 first = hit;
         }
@@ -68,13 +85,16 @@ std::vector<BodyRayHit> World::all_hits(const Ray& ray, const BodyQuery& query) 
         poll_stop();
         if (is_asked(*data_, index, query)) {
             BodyRayHit hit = ray_body_hit(data_->placed(index), ray, {});
-            hit.body = data_->id_of(index);
+            hit.body = data_->id_of(index), hit.piece = data_->bodies()[index].piece;
             if (hit.meet)
                 hits.push_back(hit);
         }
         return ray.t_max;
     });
-    std::sort(hits.begin(), hits.end(), comes_first);
+    std::sort(hits.begin(), hits.end(),
+              [](const BodyRayHit& p, const BodyRayHit& q) { return comes_first(p, q); });
+    if (data_->has_pieces())
+        keep_first_of_body(hits);
     return hits;
 }
 
@@ -96,6 +116,7 @@ std::vector<BodyId> World::overlaps(const RigidShape& shape, const Pose& pose,
             found.push_back(data_->id_of(index));
     });
     std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
     return found;
 }
 
@@ -124,8 +145,9 @@ BodySweepHit World::sweep(const RigidShape& shape, const Motion& motion, const B
             still.emplace(deformable->snapshot->model());
         const Impact impact =
             body_impact({still ? *still : body.shape, body.own_bounds, stays}, moving, options);
-        if (impact.meet && (!first.meet || impact.time < first.impact.time))
-            first = {true, data_->id_of(index), impact};
+        const BodySweepHit hit{impact.meet, data_->id_of(index), impact, body.piece};
+        if (hit.meet && (!first.meet || comes_first(hit, first)))
+            first = hit;
     }
     return first;
 }

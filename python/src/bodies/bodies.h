@@ -99,6 +99,7 @@ auto with_rigid_shape(const py::object& shape, const char* last, const Use& use)
 }
 
 class Bodies;
+void bind_compound(py::module_& module);
 void bind_question_results(py::module_& module);
 /// Adds the rays, overlaps and sweeps of a World.
 void add_world_questions(py::class_<Bodies>& type);
@@ -158,7 +159,9 @@ public:
             return body;
         }
         const Pose place = to_pose(pose, "pose");
-        return with_rigid_shape(shape, "HalfSpace or Deformable", [&](const auto& rigid) {
+        if (const auto* compound = peek<Compound>(shape))
+            return quick([&](World& world) { return world.add(*compound, place, options); });
+        return with_rigid_shape(shape, "HalfSpace, Compound or Deformable", [&](const auto& rigid) {
             return quick([&](World& world) { return world.add(rigid, place, options); });
         });
     }

@@ -35,8 +35,9 @@ std::vector<BodyMotion> to_body_motions(const py::object& motions) {
     return list;
 }
 
-BodyOptions body_options(bool is_static, std::uint32_t groups, std::uint32_t mask) {
-    return {.is_static = is_static, .groups = groups, .mask = mask};
+BodyOptions body_options(bool is_static, std::uint32_t groups, std::uint32_t mask,
+                         std::uint64_t user_data) {
+    return {.is_static = is_static, .groups = groups, .mask = mask, .user_data = user_data};
 }
 
 py::array pairs_of(const std::vector<BodyPair>& pairs) {
@@ -65,6 +66,10 @@ void bind_contacts(py::module_& module) {
         .field("normal", &ContactManifold::normal, "unit vector from a to b")
         .field("region", &ContactManifold::region,
                "names the contact region of this pair; 0 for convex bodies")
+        .field("piece_a", &ContactManifold::piece_a, "of a Compound; else 0")
+        .field("piece_b", &ContactManifold::piece_b, "of a Compound; else 0")
+        .field("user_data_a", &ContactManifold::user_data_a, "of the body, as add takes it")
+        .field("user_data_b", &ContactManifold::user_data_b, "as user_data_a")
         .field("count", &ContactManifold::count, "of the points that are set")
         .field("points", &ContactManifold::points, "list of ContactPoint: four, the deepest first")
         .field("status", &ContactManifold::status,
@@ -83,6 +88,8 @@ void bind_world_results(py::module_& module) {
         .field("normal", &BodyGap::normal, "unit vector from a to b; zero where none is known")
         .field("triangle_a", &BodyGap::triangle_a, "of a model; else 0")
         .field("triangle_b", &BodyGap::triangle_b, "of a model; else 0")
+        .field("piece_a", &BodyGap::piece_a, "of a Compound; else 0")
+        .field("piece_b", &BodyGap::piece_b, "of a Compound; else 0")
         .field("status", &BodyGap::status,
                "Status; bound_only: with a model, they go at least so deep into each other; two "
                "solids, and models that coincide, may be separated by a shorter motion")
@@ -102,6 +109,8 @@ void bind_world_results(py::module_& module) {
         .inner("triangle_a", &BodyImpact::impact, &Impact::triangle_a, "of a model; else 0")
         .inner("triangle_b", &BodyImpact::impact, &Impact::triangle_b, "of a model; else 0")
         .inner("status", &BodyImpact::impact, &Impact::status, "Status")
+        .field("piece_a", &BodyImpact::piece_a, "of a Compound; else 0")
+        .field("piece_b", &BodyImpact::piece_b, "of a Compound; else 0")
         .done();
     RecordBinder<ScheduleCounters>(module, "ScheduleCounters", "The work that `advance` has done.")
         .field("steps", &ScheduleCounters::steps, "")
@@ -140,19 +149,22 @@ py::class_<Bodies> world_class(py::module_& module) {
         .def(
             "add",
             [](Bodies& self, const py::object& shape, const py::object& pose, bool is_static,
-               std::uint32_t groups, std::uint32_t mask) {
-                return self.add(shape, pose, body_options(is_static, groups, mask));
+               std::uint32_t groups, std::uint32_t mask, std::uint64_t user_data) {
+                return self.add(shape, pose, body_options(is_static, groups, mask, user_data));
             },
             py::arg("shape"), py::arg("pose") = py::none(), py::kw_only(),
             py::arg("is_static") = false, py::arg("groups") = 1U, py::arg("mask") = ~0U,
-            "Adds a Model, Convex, Sphere, Capsule, Box3, Cylinder, Cone, Ellipsoid, HalfSpace or "
+            py::arg("user_data") = 0U,
+            "Adds a Model, Convex, Sphere, Capsule, Box3, Cylinder, Cone, Ellipsoid, HalfSpace, "
+            "Compound or "
             "Deformable;\n"
             "returns its body, an int.\n\n"
             "pose       rigid: a matrix of shape (4, 4), (translation, quaternion) or a Pose; none "
             "for a Deformable\n"
             "is_static  static bodies do not meet each other\n"
             "groups     bits: the groups that the body belongs to\n"
-            "mask       bits: the groups that it meets; both bodies must agree\n\n"
+            "mask       bits: the groups that it meets; both bodies must agree\n"
+            "user_data  a number of yours, at least 0; contacts carry it\n\n"
             "Raises Error (bad_argument) if a value is not finite or a shape is not valid; "
             "ValueError for a matrix that is\n"
             "no rotation and translation.")
@@ -171,14 +183,32 @@ py::class_<Bodies> world_class(py::module_& module) {
 void add_world_state(py::class_<Bodies>& type) {
     type.def(
             "set_options",
-            [](Bodies& self, BodyId body, bool is_static, std::uint32_t groups,
-               std::uint32_t mask) {
+            [](Bodies& self, BodyId body, bool is_static, std::uint32_t groups, std::uint32_t mask,
+               std::uint64_t user_data) {
                 self.quick([&](World& world) {
-                    world.set_options(body, body_options(is_static, groups, mask));
+                    world.set_options(body, body_options(is_static, groups, mask, user_data));
                 });
             },
             py::arg("body"), py::kw_only(), py::arg("is_static") = false, py::arg("groups") = 1U,
-            py::arg("mask") = ~0U, "Changes which bodies the body can meet.")
+            py::arg("mask") = ~0U, py::arg("user_data") = 0U,
+            "Changes which bodies the body can meet.")
+        .def(
+            "options",
+            [](Bodies& self, BodyId body) {
+                const BodyOptions options =
+                    self.quick([&](World& world) { return world.options(body); });
+                return py::dict(py::arg("is_static") = options.is_static,
+                                py::arg("groups") = options.groups, py::arg("mask") = options.mask,
+                                py::arg("user_data") = options.user_data);
+            },
+            py::arg("body"), "What set_options takes: a dict.")
+        .def(
+            "set_user_data",
+            [](Bodies& self, BodyId body, std::uint64_t user_data) {
+                self.quick([&](World& world) { world.set_user_data(body, user_data); });
+            },
+            py::arg("body"), py::arg("user_data"),
+            "Changes the number that contacts of the body carry.")
         .def(
             "refilter", [](Bodies& self) { self.quick([](World& world) { world.refilter(); }); },
             "Says that the filter has changed.")
@@ -382,6 +412,7 @@ void add_world_estimates(py::class_<Bodies>& type) {
 } // namespace
 
 void bind_world(py::module_& module) {
+    bind_compound(module);
     bind_contacts(module);
     bind_world_results(module);
     bind_question_results(module);

@@ -147,7 +147,8 @@ void bind_question_results(py::module_& module) {
         .field("normal", &BodyRayHit::normal,
                "unit vector out of the body; of a surface, towards the ray's origin; zero if the "
                "ray begins inside a solid")
-        .field("triangle", &BodyRayHit::triangle, "of a model or deformable; else 0");
+        .field("triangle", &BodyRayHit::triangle, "of a model or deformable; else 0")
+        .field("piece", &BodyRayHit::piece, "of a Compound; else 0");
     hit.done().def("__bool__", [](const BodyRayHit& self) { return self.meet; });
     RecordBinder<BodySweepHit> sweep(
         module, "BodySweepHit", "The first body that a moving shape meets. True if it meets one.");
@@ -165,7 +166,8 @@ void bind_question_results(py::module_& module) {
                "unit vector from the body to the shape")
         .inner("triangle_a", &BodySweepHit::impact, &Impact::triangle_a, "of a model; else 0")
         .inner("triangle_b", &BodySweepHit::impact, &Impact::triangle_b, "of a model; else 0")
-        .inner("status", &BodySweepHit::impact, &Impact::status, "Status");
+        .inner("status", &BodySweepHit::impact, &Impact::status, "Status")
+        .field("piece", &BodySweepHit::piece, "of a Compound; else 0");
     sweep.done().def("__bool__", [](const BodySweepHit& self) { return self.meet; });
 }
 

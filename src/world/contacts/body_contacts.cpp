@@ -325,8 +325,6 @@ void append_contacts(const BodiesInContact& bodies, double margin, PairWarmStart
     }
     if (manifolds.size() > first && is_half_space(a.shape) != is_half_space(b.shape))
         add_plane_corners(a, b, margin, warm_start, manifolds[first]);
-    for (std::size_t i = first; i < manifolds.size(); ++i)
-        manifolds[i].a = bodies.ids.a, manifolds[i].b = bodies.ids.b;
     warm_start.points.clear();
     for (std::uint32_t i = 0; manifolds.size() > first && i < manifolds[first].count; ++i)
         warm_start.points.push_back(manifolds[first].points[i].feature);

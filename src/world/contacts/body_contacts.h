@@ -11,11 +11,10 @@ namespace abut {
 /// Two bodies of a world.
 struct BodiesInContact { // NOLINT(cppcoreguidelines-pro-type-member-init): has references
     PlacedBody a, b;
-    BodyPair ids;
     PlacementPair placements;
 };
 
-/// Appends the contact manifolds of two bodies that are at most `margin` apart. Those of a surface are
+/// Appends the contact manifolds of two bodies that are at most `margin` apart. Ids are not set. Those of a surface are
 /// kept in the warm start, and appended again while both bodies stay.
 void append_contacts(const BodiesInContact& bodies, double margin, PairWarmStart& warm_start,
                      std::vector<ContactManifold>& manifolds);

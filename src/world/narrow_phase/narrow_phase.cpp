@@ -54,10 +54,15 @@ SupportShape support_of(const PlacedCurved& curved) {
     return placed(curved.shape, curved.world);
 }
 
-/// The box of a body that is a plain box, in the body's frame, whose axes are the box's.
-Box3 own_box(const RoundedBox& box) {
-    const Vec3 half{box.half[0], box.half[1], box.half[2]};
-    return {box.centre - half, box.centre + half};
+/// A box without its radius. The axes of a body that is a plain box are those of its frame; those of a
+/// compound's piece may be others.
+OrientedBox oriented_box(const PlacedRounded& box) {
+    const RoundedBox& shape = box.shape;
+    const Vec3 half{shape.half[0], shape.half[1], shape.half[2]};
+    if (shape.axis == RoundedBox().axis)
+        return {Box3{shape.centre - half, shape.centre + half}, box.world};
+    return {Box3{{-1, -1, -1}, {1, 1, 1}},
+            compose(box.world, offset_surface_of(shape).body_from_surface)};
 }
 
 /// A rounded box without its radius. It is the image of a point, a segment or a cube whose
@@ -145,7 +150,7 @@ bool meet(const PlacedSurface& a, const PlacedRounded& b, PairWarmStart& /*warm_
         return distance(a.shape, a.world, axis_of(solid), options).distance <= touching;
     }
     default:
-        return overlaps(a.shape, a.world, OrientedBox{own_box(b.shape), b.world});
+        return overlaps(a.shape, a.world, oriented_box(b));
     }
 }
 

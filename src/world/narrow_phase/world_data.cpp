@@ -44,25 +44,52 @@ BodyId WorldData::next_id() const {
 
 bool WorldData::is_valid(BodyId id) const {
     return (id.world == number_ || id.world == 0) && id.index < bodies_.size() &&
-           bodies_[id.index].alive && bodies_[id.index].generation == id.generation;
+           bodies_[id.index].alive && bodies_[id.index].owner == id.index &&
+           bodies_[id.index].generation == id.generation;
 }
 
-const Body& WorldData::body(BodyId id) const {
+void WorldData::require_valid(BodyId id) const {
     if (!is_valid(id)) {
         const bool is_other = id.world != 0 && id.world != number_;
         throw Error(ErrorCode::bad_argument,
                     "body " + std::to_string(id.index) +
                         (is_other ? ": is a body of another world" : ": there is no such body"));
     }
+}
+const Body& WorldData::body(BodyId id) const {
+    require_valid(id);
     return bodies_[id.index];
 }
 Body& WorldData::changeable(BodyId id) {
-    static_cast<void>(body(id)); // throws if the id is not valid
+    require_valid(id);
     return bodies_[id.index];
 }
 
 BodyId WorldData::add(BodyShape shape, const Pose& pose, const BodyOptions& options) {
-    const Transform world_from_body = pose;
+    const Transform world_from_body = pose; // may throw, so nothing is changed before
+    const std::uint32_t index = add_piece(std::move(shape), pose, world_from_body, options);
+    ++alive_;
+    return id_of(index);
+}
+
+BodyId WorldData::add(const std::vector<BodyShape>& pieces, const Pose& pose,
+                      const BodyOptions& options) {
+    const BodyId id = add(pieces.front(), pose, options);
+    has_pieces_ = has_pieces_ || pieces.size() > 1;
+    std::uint32_t last = id.index;
+    for (std::size_t i = 1; i < pieces.size(); ++i) {
+        const std::uint32_t index =
+            add_piece(pieces[i], pose, bodies_[id.index].world_from_body, options);
+        bodies_[index].owner = id.index, bodies_[index].piece = static_cast<std::uint32_t>(i);
+        bodies_[index].next_piece = id.index;
+        bodies_[last].next_piece = index;
+        last = index;
+    }
+    return id;
+}
+
+std::uint32_t WorldData::add_piece(BodyShape shape, const Pose& pose,
+                                   const Transform& world_from_body, const BodyOptions& options) {
     const BodyId id = next_id();
     if (free_.empty()) {
         bodies_.emplace_back();
@@ -77,32 +104,39 @@ BodyId WorldData::add(BodyShape shape, const Pose& pose, const BodyOptions& opti
     to.pose = pose, to.world_from_body = world_from_body;
     to.options = options;
     to.generation = id.generation, to.alive = true, to.seen = false;
-    ++alive_;
+    to.owner = to.next_piece = id.index, to.piece = 0;
     fit_box(id.index);
-    return id;
+    return id.index;
 }
 
 void WorldData::remove(BodyId id) {
-    Body& gone = changeable(id);
-    gone.alive = false;
-    gone.placement = ++last_placement_;
-    gone.shape = RoundedBox();
-    boxes_[id.index] = Box3();
-    (gone.seen ? removed_ : free_).push_back(id.index);
+    require_valid(id);
+    for_each_piece(id.index, [&](std::uint32_t index) {
+        Body& gone = bodies_[index];
+        gone.alive = false;
+        gone.placement = ++last_placement_;
+        gone.shape = RoundedBox();
+        boxes_[index] = Box3();
+        (gone.seen ? removed_ : free_).push_back(index);
+        set_changed(index);
+    });
     --alive_;
-    set_changed(id.index);
 }
 
 void WorldData::move(BodyId id, const Pose& pose) {
-    Body& moved = changeable(id);
+    require_valid(id);
     const Transform world_from_body = pose; // may throw, so nothing is changed before
-    moved.pose = pose;
-    if (has_same_bits(moved.world_from_body, world_from_body)) {
-        set_changed(id.index); // the next query counts as a step; box and placement stay
-        return;
-    }
-    moved.world_from_body = world_from_body;
-    fit_box(id.index);
+    const bool stays = has_same_bits(bodies_[id.index].world_from_body, world_from_body);
+    for_each_piece(id.index, [&](std::uint32_t index) {
+        Body& moved = bodies_[index];
+        moved.pose = pose;
+        if (stays) {
+            set_changed(index); // the next query counts as a step; box and placement stay
+            return;
+        }
+        moved.world_from_body = world_from_body;
+        fit_box(index);
+    });
 }
 
 void WorldData::refresh(BodyId id) {
@@ -117,8 +151,15 @@ void WorldData::refresh(BodyId id) {
 }
 
 void WorldData::set_options(BodyId id, const BodyOptions& options) {
-    changeable(id).options = options;
+    require_valid(id);
+    for_each_piece(id.index, [&](std::uint32_t index) { bodies_[index].options = options; });
     refilter();
+}
+
+void WorldData::set_user_data(BodyId id, std::uint64_t user_data) {
+    require_valid(id);
+    for_each_piece(id.index,
+                   [&](std::uint32_t index) { bodies_[index].options.user_data = user_data; });
 }
 
 void WorldData::refilter() {
@@ -128,8 +169,11 @@ void WorldData::refilter() {
 
 bool WorldData::may_meet(std::uint32_t i, std::uint32_t k) const {
     const BodyOptions &a = bodies_[i].options, &b = bodies_[k].options;
-    return !(a.is_static && b.is_static) && (a.groups & b.mask) != 0 && (b.groups & a.mask) != 0 &&
-           (!options_.filter || options_.filter(id_of(i), id_of(k)));
+    if ((a.is_static && b.is_static) || (a.groups & b.mask) == 0 || (b.groups & a.mask) == 0 ||
+        bodies_[i].owner == bodies_[k].owner)
+        return false;
+    const auto [first, second] = std::minmax({id_of(i), id_of(k)});
+    return !options_.filter || options_.filter(first, second);
 }
 
 void WorldData::set_changed(std::uint32_t index) {

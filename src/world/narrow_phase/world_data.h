@@ -20,6 +20,10 @@ struct Body {
     Box3 own_bounds;
     BodyOptions options;
     std::uint32_t generation = 0;
+    /// The body that this is a piece of, by index: itself, but for the second and later pieces of a compound.
+    std::uint32_t owner = 0;
+    std::uint32_t piece = 0;         ///< its number in the compound
+    std::uint32_t next_piece = 0;    ///< by index; that of the owner for the last one
     std::uint32_t shape_version = 0; ///< how often the shape has been refreshed
     /// A number that no other body and no other placement of this body has had in this world.
     std::uint64_t placement = 0;
@@ -28,6 +32,8 @@ struct Body {
 };
 
 /// The bodies of a world and the data of their pairs. The world's queries work on these.
+///
+/// Each piece of a compound is a body here. The first one is the owner of all, and gives them its id.
 class WorldData {
 public:
     explicit WorldData(WorldOptions options);
@@ -35,10 +41,12 @@ public:
     WorldData& operator=(const WorldData&) = delete;
 
     BodyId add(BodyShape shape, const Pose& pose, const BodyOptions& options);
+    BodyId add(const std::vector<BodyShape>& pieces, const Pose& pose, const BodyOptions& options);
     void remove(BodyId id);
     void move(BodyId id, const Pose& pose);
     void refresh(BodyId id);
     void set_options(BodyId id, const BodyOptions& options);
+    void set_user_data(BodyId id, std::uint64_t user_data);
     void refilter();
 
     /// The id that the next added body will have.
@@ -46,6 +54,19 @@ public:
     [[nodiscard]] bool is_valid(BodyId id) const;
     /// Errors      Error{bad_argument} if the id is not valid.
     [[nodiscard]] const Body& body(BodyId id) const;
+
+    /// Calls visit(index) for each piece of a body.
+    template <typename Visit>
+    void for_each_piece(std::uint32_t owner, const Visit& visit) const {
+        std::uint32_t index = owner;
+        do {
+            const std::uint32_t next = bodies_[index].next_piece;
+            visit(index);
+            index = next;
+        } while (index != owner);
+    }
+    /// Whether there has ever been a compound.
+    [[nodiscard]] bool has_pieces() const { return has_pieces_; }
 
     void update();
     /// Updates if anything has changed since the last update, so that each query sees the bodies as
@@ -72,12 +93,14 @@ public:
         return {bodies_[index].shape, bodies_[index].world_from_body};
     }
     [[nodiscard]] BodyId id_of(std::uint32_t index) const {
-        return {index, bodies_[index].generation, number_};
+        const std::uint32_t owner = bodies_[index].owner;
+        return {owner, bodies_[owner].generation, number_};
     }
     /// Numbers both bodies as they are placed now.
     [[nodiscard]] PlacementPair placements_of(IndexPair pair) const {
         return {bodies_[pair.a()].placement, bodies_[pair.b()].placement};
     }
+    /// In the order of the pair; if one is a piece, b may come before a.
     [[nodiscard]] BodyPair ids_of(IndexPair pair) const {
         return {id_of(pair.a()), id_of(pair.b())};
     }
@@ -87,6 +110,9 @@ public:
     [[nodiscard]] bool may_meet(std::uint32_t i, std::uint32_t k) const;
 
 private:
+    std::uint32_t add_piece(BodyShape shape, const Pose& pose, const Transform& world_from_body,
+                            const BodyOptions& options);
+    void require_valid(BodyId id) const;
     Body& changeable(BodyId id);
     void set_changed(std::uint32_t index);
     void fit_box(std::uint32_t index);
@@ -103,7 +129,8 @@ private:
     std::vector<std::uint8_t> is_changed_;
     std::uint64_t last_placement_ = 0;
     bool refiltered_ = false; ///< whether filters changed since the last update
-    std::size_t alive_ = 0;
+    bool has_pieces_ = false;
+    std::size_t alive_ = 0; ///< bodies, not pieces
     BroadPhase broad_phase_;
     std::vector<PairWarmStart> warm_starts_; ///< of the pairs before `pair_changes_`
     ResultParts parts_;
