@@ -103,26 +103,28 @@ void add_properties(Database& database, StoreSummary& summary) {
         static_cast<std::uint64_t>(database.number("SELECT count(*) FROM part_relation"));
 }
 
+[[noreturn]] void throw_unreadable(const std::string& path, int error) {
+    if (error == ENOENT || error == ENOTDIR)
+        throw Error(ErrorCode::file_not_found, path, "no such file");
+    throw Error(ErrorCode::unreadable, path,
+                std::string("cannot be read: ") + std::strerror(error));
+}
+
 /// Refuses whatever is not a readable, regular file, without opening it. Only SQLite may open a
 /// store: closing another descriptor of the file would release the locks that other connections of
 /// this process hold (POSIX, fcntl).
 void require_regular_file(const std::string& path) {
     struct stat status {};
-    if (stat(path.c_str(), &status) != 0) {
-        if (errno == ENOENT || errno == ENOTDIR)
-            throw Error(ErrorCode::file_not_found, path, "no such file");
-        throw Error(ErrorCode::unreadable, path,
-                    std::string("cannot be read: ") + std::strerror(errno));
-    }
+    if (stat(path.c_str(), &status) != 0)
+        throw_unreadable(path, errno);
     if (S_ISDIR(status.st_mode))
         throw Error(ErrorCode::unreadable, path, "is a folder");
     if (!S_ISREG(status.st_mode))
         throw Error(ErrorCode::unreadable, path, "is not a regular file");
     if (status.st_size == 0)
         throw Error(ErrorCode::malformed, path, kEmptyStore);
-    if (access(path.c_str(), R_OK) != 0)
-        throw Error(ErrorCode::unreadable, path,
-                    std::string("cannot be read: ") + std::strerror(errno));
+    if (access(path.c_str(), R_OK) != 0) // also if another process has just removed it
+        throw_unreadable(path, errno);
 }
 
 } // namespace
