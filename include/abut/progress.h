@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <functional>
 #include <string_view>
 
@@ -21,6 +22,25 @@ struct Progress {
 /// Sets the number of threads for all later parallel work of the process. 0: all threads of the
 /// machine.
 void set_threads(int count);
+
+/// A thread pool of the caller's. It calls task(i) once for each i below `count`, on any of its
+/// threads or on the one that asks, in any order, and returns when all these calls have returned. Abut
+/// calls it from any thread that asks a query, also from several at once.
+using TaskRunner =
+    std::function<void(std::size_t count, const std::function<void(std::size_t)>& task)>;
+
+/// Hands the parallel parts of all later queries of the process to a thread pool of the caller's, in
+/// place of Abut's own threads. Results do not depend on it. An empty function returns to Abut's own
+/// threads, and `set_threads` then counts again.
+///
+/// The tasks throw nothing, wait for no other task, and call the pool from none of its threads.
+/// Reading files, imports into a store, levels of detail and what a walk loads ahead keep threads of
+/// their own.
+///
+/// In          threads: how many tasks a query hands in at most at once.
+/// Errors      Error{bad_argument}: threads below 1. What the function throws reaches the query's
+///             caller; it may throw only while none of the tasks runs.
+void set_task_runner(TaskRunner run, int threads);
 
 /// Returns the peak resident memory, in MiB, of this process or of any of its finished children,
 /// whichever is larger.

@@ -24,7 +24,7 @@ OTHER_TYPES = {
 }
 OTHER_FUNCTIONS = {
     "to_string": "members of an enum have a name", "make_mesh": "Mesh", "clash_id_text": "ids are text",
-    "parse_clash_id": "ids are text", "told_distance": "max(rounding, 1e-12) is what counts as 0",
+    "parse_clash_id": "ids are text", "set_task_runner": "a pool of threads of C++", "told_distance": "max(rounding, 1e-12) is what counts as 0",
 }
 OTHER_MEMBERS = {
     "Model": {"mesh": None}, "Mesh": {"positions": "vertices", "triangles": "faces"},

@@ -2,28 +2,7 @@
 
 #include <abut/error.h>
 
-#include <memory>
-#include <tbb/global_control.h>
-#include <utility>
-
 namespace abut {
-
-namespace {
-std::mutex g_threads_mutex;
-std::unique_ptr<tbb::global_control> g_threads;
-} // namespace
-
-void set_threads(int count) {
-    if (count < 0)
-        throw Error(ErrorCode::bad_argument, "threads must not be negative");
-    const std::scoped_lock lock(g_threads_mutex);
-    // The old limit ends after the new one has begun, so that no query meanwhile runs without one.
-    std::unique_ptr<tbb::global_control> limit;
-    if (count > 0)
-        limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                      static_cast<std::size_t>(count));
-    g_threads = std::move(limit);
-}
 
 ProgressMeter::ProgressMeter(const Progress& progress, std::string_view stage, std::size_t total)
     : progress_(progress), stage_(stage), total_(total) {

@@ -5,7 +5,6 @@
 #include "mesh/topology.h"
 
 #include <algorithm>
-#include <tbb/global_control.h>
 
 namespace abut {
 
@@ -30,8 +29,7 @@ CandidateSearch::CandidateSearch(const DeformableData& a, const DeformableData& 
     if (scheme_ == Scheme::database) {
         // The limit says only what is best: another thread may change it while the tasks run, and
         // oneTBB applies a new limit late. for_each_task makes sure of what runs.
-        on_one_thread_ =
-            tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) == 1;
+        on_one_thread_ = is_sequential();
         tested_ = std::make_unique<ConcurrentSet>(on_one_thread_);
     }
     if (scheme_ == Scheme::features)
