@@ -3,6 +3,7 @@
 #include "convex/support/support_pair.h"
 
 #include <array>
+#include <boost/container/static_vector.hpp>
 #include <cstdint>
 #include <limits>
 
@@ -37,10 +38,13 @@ struct LocalCore {
 /// Which of a simplex's points are meant.
 enum class PairSide : std::uint8_t { a, b };
 
-/// The feature of a core that holds the simplex's weighted point.
+using LocalCores = boost::container::static_vector<LocalCore, 8>;
+
+/// The features of a core that may hold the simplex's weighted point, the likeliest first: more than one
+/// where the point is so near the border of a feature that its rounding decides. Never empty.
 ///
 /// In          direction: unit vector in which the point is farthest, to about 1e-4.
-LocalCore local_core(const SupportPair& pair, PairSide side, const SupportSimplex& nearest,
-                     const Vec3& direction);
+LocalCores local_cores(const SupportPair& pair, PairSide side, const SupportSimplex& nearest,
+                       const Vec3& direction);
 
 } // namespace abut

@@ -22,9 +22,8 @@ struct Owners {
 ///     point(d) = value d + sum of multiplier_k (normal_k - level_k d),   normal_k . d = level_k.
 class Stationary {
 public:
-    Stationary(const SupportPair& pair, const Vec3& outward, const SupportSimplex& nearest)
-        : pair_(pair), d_(outward), a_(local_core(pair, PairSide::a, nearest, -outward)),
-          b_(local_core(pair, PairSide::b, nearest, outward)) {
+    Stationary(const SupportPair& pair, const Vec3& outward, const LocalCore& a, const LocalCore& b)
+        : pair_(pair), d_(outward), a_(a), b_(b) {
         for (std::uint32_t i = 0; i < a_.rule_count; ++i)
             add({a_.rules[i].normal, -a_.rules[i].level}, {true, false});
         for (std::uint32_t i = 0; i < b_.rule_count; ++i)
@@ -198,15 +197,19 @@ private:
 std::optional<RefinedGap> refined(const SupportPair& pair, const Vec3& outward,
                                   const SupportSimplex& nearest, const Vec3& across) {
     constexpr double kNoPivot = 0x1p-44, kNoCurvature = 0x1p-20;
-    for (const double no_pivot : {kNoPivot, kNoCurvature}) {
-        Stationary stationary(pair, outward, nearest);
-        if (across != Vec3{})
-            stationary.stay_across(across);
-        if (!stationary.solve(no_pivot))
-            continue;
-        if (const auto gap = stationary.result())
-            return gap;
-    }
+    const LocalCores cores_a = local_cores(pair, PairSide::a, nearest, -outward),
+                     cores_b = local_cores(pair, PairSide::b, nearest, outward);
+    for (const LocalCore& a : cores_a)
+        for (const LocalCore& b : cores_b)
+            for (const double no_pivot : {kNoPivot, kNoCurvature}) {
+                Stationary stationary(pair, outward, a, b);
+                if (across != Vec3{})
+                    stationary.stay_across(across);
+                if (!stationary.solve(no_pivot))
+                    continue;
+                if (const auto gap = stationary.result())
+                    return gap;
+            }
     return std::nullopt;
 }
 

@@ -25,6 +25,12 @@ double reach_of(const MovingBody& body) {
     return reach_from(body.shape, body.own_bounds, apply(inverse(start), body.motion.centre));
 }
 
+/// Half of the body's extent, whatever it turns about. Infinite for a half-space.
+double size_of(const MovingBody& body) {
+    const Box3& box = body.own_bounds;
+    return reach_from(body.shape, box, 0.5 * box.lower + 0.5 * box.upper);
+}
+
 /// The same for points of the body's core, if it is one that a ball moves along: turning about a point of
 /// the core moves no surface by more than it moves the core.
 double core_reach_of(const MovingBody& body) {
@@ -64,11 +70,8 @@ public:
         const double size = std::max(reach_a_, reach_b_);
         scale_ = size + max_abs(a.motion.centre) + max_abs(b.motion.centre) +
                  max_abs(a.motion.velocity) + max_abs(b.motion.velocity) + plane_size;
-        // The reach of a half-space is that of its motion's lever, and no size of a body.
-        const double own = plane_a_ && plane_b_ ? size
-                           : plane_a_           ? reach_b_
-                           : plane_b_           ? reach_a_
-                                                : std::min(reach_a_, reach_b_);
+        // The smaller body's size; two half-spaces have none.
+        const double own = plane_a_ && plane_b_ ? size : std::min(size_of(a), size_of(b));
         asked_tolerance_ = options.absolute_error.value_or(kImpactTolerance * own);
         error_ = (is_any_curved_ ? kCurvedRounding : kRounding) * scale_;
         tolerance_ = std::max(asked_tolerance_, 4 * error_);
@@ -361,7 +364,7 @@ Impact body_impact(const MovingBody& a, const MovingBody& b, const ImpactOptions
         return time_of_impact(model_of(a.shape), a.motion, model_of(b.shape), b.motion, options);
     if (((is_model(a) && has_core(b)) || (has_core(a) && is_model(b))) && !touch_at_start(a, b)) {
         const double tolerance =
-            options.absolute_error.value_or(kImpactTolerance * std::min(reach_of(a), reach_of(b)));
+            options.absolute_error.value_or(kImpactTolerance * std::min(size_of(a), size_of(b)));
         return is_model(a) ? model_impact(a, b, tolerance, options)
                            : turned_round(model_impact(b, a, tolerance, options));
     }
