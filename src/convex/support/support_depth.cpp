@@ -76,14 +76,14 @@ public:
         if (const auto gap = refined(pair_, outward_, polytope_.facet_along(outward_));
             gap && gap->value <= best_ + enough_)
             return result(*gap);
-        // The points of a facet that is on the boundary itself are accurate to the square root of
-        // rounding.
+        // A few more points often make the bounds agree.
         constexpr int kMostBeyond = 32;
         for (int step = 0; step < kMostBeyond && !on_boundary_ && advance(); ++step) {
         }
         try_axes();
-        SupportDepth depth = result({outward_, best_, polytope_.facet_along(outward_).nearest()});
+        SupportDepth depth = result({outward_, best_, {}});
         descend(depth);
+        find_points(depth);
         depth.at_least = std::min(depth.at_least, depth.depth);
         return depth;
     }
@@ -118,10 +118,9 @@ private:
                         best_ = depth, outward_ = outward;
     }
 
-    /// Shortens the motion, and finds the points that it brings together. After the motion, and
-    /// slightly more, the closest points of the shapes are a slight gap g apart. If they are farther
-    /// apart, the motion was not the shortest: that along g is shorter by at least |g| - slight. If
-    /// not, g lies along the motion, and so does the vector between the points before it.
+    /// Shortens the motion. After the motion, and slightly more, the closest points of the shapes are a
+    /// slight gap g apart. If they are farther apart, the motion was not the shortest: that along g is
+    /// shorter by at least |g| - slight.
     void descend(SupportDepth& depth) const {
         // Far above the rounding of lengths, which are about 1 here.
         constexpr double kSlight = 0x1p-32;
@@ -129,16 +128,28 @@ private:
         for (int i = 0; i < kMostMotions; ++i) {
             const Vec3 way = (depth.depth + kSlight) * depth.normal;
             const SupportDistance found = support_distance(pair_.moved(way), {});
-            if (found.meet || !(found.distance > 0))
+            if (found.meet || !(found.distance - kSlight > pair_.rounding()))
                 return;
-            const DifferencePoint points = found.simplex.nearest();
-            depth.point_a = points.a, depth.point_b = points.b - way;
-            const Vec3 normal = (1 / length(points.at)) * points.at;
+            const Vec3 normal = normalized_or_zero(found.simplex.nearest().at);
             const double shorter = dot(pair_.farthest(-normal).at, -normal);
-            if (found.distance - kSlight <= pair_.rounding() || !(shorter < depth.depth))
+            if (!(shorter < depth.depth))
                 return;
             depth.depth = shorter, depth.normal = normal;
         }
+    }
+
+    /// Finds the points that the motion brings together. If it leaves a gap, it was not the shortest:
+    /// the motion that closes the gap, too, leaves the shapes touching, and is told in its place.
+    void find_points(SupportDepth& depth) const {
+        // A gap of this many roundings is proven, and one of so many more is closed.
+        constexpr double kApart = 4, kClosed = 16;
+        const Vec3 way = (depth.depth + kApart * pair_.rounding()) * depth.normal;
+        const DifferencePoint points = support_distance(pair_.moved(way), {}).simplex.nearest();
+        depth.point_a = points.a, depth.point_b = points.b - way;
+        if (length(points.at) <= kClosed * pair_.rounding())
+            return;
+        const Vec3 motion = way - points.at;
+        depth.depth = length(motion), depth.normal = normalized_or_zero(motion);
     }
 
     [[nodiscard]] SupportDepth result(const RefinedGap& gap) const {
