@@ -66,11 +66,11 @@ void place_on_box(LocalCores& cores, const LocalCore& so_far, std::size_t k, con
     const double along = dot(box.axis[k], at), half = box.half[k];
     const double room = half - std::abs(along);
     for (const bool inside :
-         Choices(room, half,
-                 half > 0 && std::abs(dot(box.axis[k], direction)) <= kAgreement)) {
+         Choices(room, half, half > 0 && std::abs(dot(box.axis[k], direction)) <= kAgreement)) {
         LocalCore core = so_far;
-        core.fixed = core.fixed +
-                     (inside ? std::clamp(along, -half, half) : with_sign(half, along)) * box.axis[k];
+        core.fixed =
+            core.fixed +
+            (inside ? std::clamp(along, -half, half) : with_sign(half, along)) * box.axis[k];
         if (inside) {
             add_rule(core, box.axis[k], 0, direction);
             core.room = std::min(core.room, std::max(room, 0.0));
@@ -101,8 +101,8 @@ void place_on_cylinder(LocalCores& cores, const LocalCore& empty, const Local& a
     const SupportShape& cylinder = *empty.shape;
     const Local d = along_axes(cylinder, direction);
     const double radius = cylinder.half[0], half = cylinder.half[2];
-    for (const bool in_disc : Choices(radius - std::hypot(at.x, at.y), radius,
-                                      std::hypot(d.x, d.y) <= kAgreement)) {
+    for (const bool in_disc :
+         Choices(radius - std::hypot(at.x, at.y), radius, std::hypot(d.x, d.y) <= kAgreement)) {
         if (in_disc) {
             keep(cores, on_disc(empty, at, with_sign(half, d.z), direction));
             continue;

@@ -9,10 +9,13 @@
 #include "world/schedule/deforming_impact.h"
 #include "world/schedule/model_impact.h"
 #include "world/schedule/shared_point.h"
+#include "world/schedule/turning_solids.h"
+#include "world/schedule/turning_surface.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace abut {
@@ -85,7 +88,22 @@ public:
         return impact;
     }
 
+    /// Looks for a contact after an impact of surfaces for which none was found. A surface that has gone
+    /// into a solid at one instant shares points with the solid from then on, but none with its surface.
+    void prove(Impact& impact) const {
+        BodyGap gap;
+        gap.distance = impact.gap, gap.normal = impact.normal;
+        gap.point_a = impact.point_a, gap.point_b = impact.point_b;
+        impact.contact_time = contact_after(impact.time, gap);
+        if (impact.contact_time <= 1)
+            impact.status = impact.gap <= asked_tolerance_ ? Status::exact : Status::converged;
+    }
+
 private:
+    /// The bounds of second order cost more than a step. They are not asked where speeds alone prove this
+    /// share of the time that is left.
+    static constexpr double kLongStep = 8;
+
     /// A length that is free, and a bound of the speed at which it shrinks.
     struct Approach {
         double free = 0, speed = 0;
@@ -148,9 +166,13 @@ private:
             if (time + best.time() > 1)
                 return miss();
             // Stops short by half of the tolerance, so that the reported time is before contact.
+            const double by_room =
+                time_of_room(time, gap, fast.time(), 0.5 * tolerance + 2 * error_, 1 - time);
+            if (time + by_room >= 1)
+                return miss();
             best.free -= 0.5 * tolerance;
-            time +=
-                std::max(best.time(), fast.time() - 0.5 * tolerance / fast.speed) * (1 - kRounding);
+            time += std::max({best.time(), fast.time() - 0.5 * tolerance / fast.speed, by_room}) *
+                    (1 - kRounding);
             gap = gap_at(time);
         }
         return hit(time, gap, contact_after(time, gap));
@@ -182,38 +204,64 @@ private:
             return 0;
         constexpr double kShortest = 0x1p-12; // of the step; bodies that part more slowly touch
         double time = 1;
-        while (time >= kShortest && least_room_by(time, touching.normal) < -2 * kRounding * scale_)
+        const auto room_after = [&](double later) {
+            return with_solids(0, [&](const TurningSolid& a, const TurningSolid& b) {
+                return least_room_after(later, a, b, touching.normal);
+            });
+        };
+        while (time >= kShortest && room_after(time) < -2 * kRounding * scale_)
             time *= 0.5;
         return time >= kShortest ? time : 0;
     }
 
-    /// A lower bound h of the room between the bodies along a direction n at the end of a time T. If the
-    /// room at the start is g, that at each earlier time t is at least (1 - t / T) g + (t / T) h.
-    ///
-    /// Source      a point at r from the centre of a body that turns by w t is n . (r + t w x r) high, give
-    ///             or take t^2 |w|^2 |r| / 2. Without the last term, points move along lines. The height of
-    ///             the lowest of them is then a concave function of time, and lies over its chord.
-    [[nodiscard]] double least_room_by(double time, const Vec3& n) const {
-        const auto turned_off = [&](const MovingBody& body, double swing) {
-            return 0.5 * time * time * length_sq(body.motion.angular_velocity) * swing;
-        };
-        const Vec3 from = a_.motion.centre;
-        return -highest_by(b_, -n, time, from) - highest_by(a_, n, time, from) -
-               turned_off(a_, swing_a_) - turned_off(b_, swing_b_);
+    /// A body as a solid at a time; a half-space as a point of its plane. None for a surface.
+    [[nodiscard]] static std::optional<SupportShape> solid_at(const MovingBody& body, double time) {
+        const Transform world = at(body.motion, time);
+        if (const auto* plane = std::get_if<PlaneShape>(&body.shape)) {
+            SupportShape point;
+            point.centre = placed(*plane, world).point;
+            return point;
+        }
+        return support_of(PlacedBody{body.shape, world});
     }
-    /// The height along a direction that a body's points reach if they move as they do at the start.
-    [[nodiscard]] static double highest_by(const MovingBody& body, const Vec3& n, double time,
-                                           const Vec3& from) {
+    [[nodiscard]] static TurningSolid turning(const MovingBody& body, const SupportShape& solid,
+                                              double time, double swing) {
         const Motion& motion = body.motion;
-        const Transform world = at(motion, 0);
-        const double moved = time * dot(n, motion.velocity);
-        const auto solid = support_of(PlacedBody{body.shape, world});
+        return {solid, motion.centre + time * motion.velocity, motion.velocity,
+                motion.angular_velocity, swing};
+    }
+    /// Calls use(a, b) with both bodies as solids at a time. Returns 0 if one of them is none.
+    template <typename Use>
+    [[nodiscard]] double with_solids(double time, const Use& use) const {
+        const auto solid_a = solid_at(a_, time), solid_b = solid_at(b_, time);
+        return solid_a && solid_b ? use(turning(a_, *solid_a, time, swing_a_),
+                                        turning(b_, *solid_b, time, swing_b_))
+                                  : 0;
+    }
+    /// How long after a time more than a margin is left between the bodies, at most `horizon`: by a bound of
+    /// the second order in time, which finds what speeds alone hide from large bodies that turn, and
+    /// from surfaces.
+    [[nodiscard]] double time_of_room(double time, const BodyGap& gap, double free, double margin,
+                                      double horizon) const {
+        const bool turn = turns(a_) || turns(b_);
+        if (along_normal_ && turn)
+            return with_solids(time, [&](const TurningSolid& a, const TurningSolid& b) {
+                return time_with_room(a, b, gap.normal, margin, horizon);
+            });
+        const bool is_model_a = std::holds_alternative<Model>(a_.shape);
+        const MovingBody &surface = is_model_a ? a_ : b_, &other = is_model_a ? b_ : a_;
+        if (along_normal_ || !std::holds_alternative<Model>(surface.shape) ||
+            is_half_space(other.shape) || kLongStep * free >= horizon)
+            return 0;
+        const auto solid = solid_at(other, time);
         if (!solid)
-            return moved + dot(n, placed(std::get<PlaneShape>(body.shape), world).point - from);
-        // n . (w x r) = (n x w) . r
-        const Vec3 turned = time * cross(n, motion.angular_velocity),
-                   top = solid->centre + farthest(*solid, n + turned);
-        return moved + dot(n, top - from) + dot(turned, top - motion.centre) + solid->radius;
+            return 0;
+        const Motion& motion = surface.motion;
+        const PlacedModel model(std::get<Model>(surface.shape), at(motion, time));
+        return time_with_room({model, motion.centre + time * motion.velocity, motion.velocity,
+                               motion.angular_velocity},
+                              turning(other, *solid, time, is_model_a ? swing_b_ : swing_a_), free,
+                              fastest_approach(), margin, horizon);
     }
 
     /// Upper bound of the speed at which points of the two bodies approach each other.
@@ -365,8 +413,11 @@ Impact body_impact(const MovingBody& a, const MovingBody& b, const ImpactOptions
     if (((is_model(a) && has_core(b)) || (has_core(a) && is_model(b))) && !touch_at_start(a, b)) {
         const double tolerance =
             options.absolute_error.value_or(kImpactTolerance * std::min(size_of(a), size_of(b)));
-        return is_model(a) ? model_impact(a, b, tolerance, options)
-                           : turned_round(model_impact(b, a, tolerance, options));
+        Impact impact = is_model(a) ? model_impact(a, b, tolerance, options)
+                                    : turned_round(model_impact(b, a, tolerance, options));
+        if (impact.status == Status::bound_only && !impact.out_of_steps)
+            Advancement(a, b, options).prove(impact);
+        return impact;
     }
     return Advancement(a, b, options).run();
 }

@@ -58,11 +58,13 @@ DeformingPair::DeformingPair(const DeformableData& deformable, const MovingBody&
       is_model_(std::holds_alternative<Model>(body.shape) ||
                 std::holds_alternative<ConvexShape>(body.shape)),
       moving_(body.motion), turning_(turning(body.motion)), velocity_(body.motion.velocity) {
-    Box3 step;
-    for (const MovingVertex& vertex : deformable.vertices)
+    Box3 surface, step;
+    for (const MovingVertex& vertex : deformable.vertices) {
+        extend(surface, vertex.start);
         extend(step, vertex.start), extend(step, vertex.end);
+    }
     const Box3 start = bounds_of(body.shape, body.own_bounds, turning_.start());
-    size_ = std::min(half_diagonal(step), half_diagonal(start));
+    size_ = std::min(half_diagonal(surface), half_diagonal(start));
     double scale = max_abs(velocity_) + max_abs(body.motion.centre);
     for (const Box3& box : {step, start})
         scale += max_abs(box.lower) + max_abs(box.upper);

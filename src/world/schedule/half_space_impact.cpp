@@ -31,10 +31,10 @@ public:
         : data_(surface.data()), plane_(std::get<PlaneShape>(half_space.shape)),
           motion_(half_space.motion), steps_(options) {
         find_used();
-        Box3 step;
+        Box3 step, start;
         for (const std::uint32_t i : used_) {
             const MovingVertex& vertex = data_.vertices[i];
-            extend(step, vertex.start), extend(step, vertex.end);
+            extend(start, vertex.start), extend(step, vertex.start), extend(step, vertex.end);
             // The distance from the centre is largest at the start or at the end.
             lever_ = std::max({lever_, length(vertex.start - motion_.centre),
                                length(vertex.end - motion_.centre - motion_.velocity)});
@@ -43,7 +43,7 @@ public:
                   (max_abs(step.lower) + max_abs(step.upper) + max_abs(plane_.point) +
                    max_abs(motion_.start.translation) + max_abs(motion_.velocity) + lever_);
         asked_tolerance_ = options.absolute_error.value_or(0.5 * kImpactTolerance *
-                                                           length(step.upper - step.lower));
+                                                           length(start.upper - start.lower));
         tolerance_ = std::max(asked_tolerance_, 4 * margin_);
     }
 
