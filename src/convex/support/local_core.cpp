@@ -73,7 +73,6 @@ void place_on_box(LocalCores& cores, const LocalCore& so_far, std::size_t k, con
             (inside ? std::clamp(along, -half, half) : with_sign(half, along)) * box.axis[k];
         if (inside) {
             add_rule(core, box.axis[k], 0, direction);
-            core.room = std::min(core.room, std::max(room, 0.0));
         }
         place_on_box(cores, core, k + 1, at, direction);
     }
@@ -84,7 +83,6 @@ LocalCore on_disc(LocalCore core, const Local& at, double height, const Vec3& di
     const double across = std::hypot(at.x, at.y), radius = core.shape->half[0],
                  part = across > radius ? radius / across : 1;
     core.fixed = from_axes(*core.shape, {part * at.x, part * at.y, height});
-    core.room = std::max(radius - across, 0.0);
     add_rule(core, core.shape->axis[0], 0, direction);
     add_rule(core, core.shape->axis[1], 0, direction);
     return core;
@@ -115,7 +113,6 @@ void place_on_cylinder(LocalCores& cores, const LocalCore& empty, const Local& a
             }
             LocalCore core = on_rim(empty, 1, std::clamp(at.z, -half, half));
             add_rule(core, cylinder.axis[2], 0, direction);
-            core.room = std::max(room, 0.0);
             keep(cores, core);
         }
     }
@@ -143,7 +140,6 @@ void place_on_cone(LocalCores& cores, const LocalCore& empty, const Local& at,
             }
             LocalCore core = on_rim(empty, down, (1 - 2 * down) * half);
             add_rule(core, cone.axis[2], slope, direction);
-            core.room = room;
             keep(cores, core);
         }
     }
@@ -274,6 +270,26 @@ Vec3 LocalCore::derivative(const Vec3& direction, const Vec3& along) const {
     if (curved)
         return ellipsoid_derivative(*shape, d, by);
     return rim > 0 ? rim * round_derivative(*shape, d, by) : Vec3{};
+}
+
+bool LocalCore::may_move(const Vec3& from, const Vec3& by, double error) const {
+    const auto& [a, b, c] = shape->half;
+    const Local at = along_axes(*shape, from + by);
+    const double across = std::hypot(at.x, at.y);
+    switch (shape->kind) {
+    case CoreKind::box:
+        return std::abs(at.x) <= a + error && std::abs(at.y) <= b + error &&
+               std::abs(at.z) <= c + error;
+    case CoreKind::cylinder:
+        return across <= a + error && std::abs(at.z) <= c + error;
+    case CoreKind::cone: { // below the side
+        const double side = std::hypot(a, 2 * c);
+        return std::abs(at.z) <= c + error && across <= a + error &&
+               2 * c * across <= a * (c - at.z) + error * side;
+    }
+    default:
+        return length(by) <= room + error;
+    }
 }
 
 LocalCores local_cores(const SupportPair& pair, PairSide side, const SupportSimplex& nearest,

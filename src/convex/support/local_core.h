@@ -27,12 +27,14 @@ struct LocalCore {
     bool curved = false;
     std::array<DirectionRule, 3> rules{};
     std::uint32_t rule_count = 0;
-    /// The point may move by this on the feature without leaving it.
+    /// Corners: the point may move by this on the feature without leaving it.
     double room = std::numeric_limits<double>::infinity();
 
     [[nodiscard]] Vec3 point(const Vec3& direction) const;
     /// The derivative of the point along a vector.
     [[nodiscard]] Vec3 derivative(const Vec3& direction, const Vec3& along) const;
+    /// Whether a point of the feature that moves along it stays on the core, up to an error.
+    [[nodiscard]] bool may_move(const Vec3& from, const Vec3& by, double error) const;
 };
 
 /// Which of a simplex's points are meant.

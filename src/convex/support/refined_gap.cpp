@@ -42,15 +42,18 @@ public:
         no_pivot_ = no_pivot;
         constexpr int kMostSteps = 12;
         constexpr double kConverged = 0x1p-48, kLargestTurn = 0x1p-4;
+        // Rounding turns the direction by more where a curvature is sharp. `result` judges what comes of it.
+        constexpr double kRoundingAtSharpEdge = 0x1p-24;
         const Vec3 start = d_;
+        double change = 0;
         for (int step = 0; step < kMostSteps; ++step) {
-            const double change = advance();
+            change = advance();
             if (!(length(d_ - start) <= kLargestTurn))
                 return false;
             if (change <= kConverged)
                 return true;
         }
-        return false;
+        return change <= kRoundingAtSharpEdge;
     }
 
     /// None if a point has left its feature.
@@ -68,7 +71,8 @@ public:
                 by_b = by_b - by;
         }
         const double error = kPointRoundings * pair_.rounding();
-        if (!(length(by_a) <= a_.room + error && length(by_b) <= b_.room + error))
+        if (!a_.may_move(gap.points.a, by_a, error) ||
+            !b_.may_move(gap.points.b - pair_.offset(), by_b, error))
             return std::nullopt;
         gap.points.a = gap.points.a + by_a, gap.points.b = gap.points.b + by_b;
         gap.points.at = gap.points.b - gap.points.a;
@@ -195,7 +199,8 @@ private:
 } // namespace
 
 std::optional<RefinedGap> refined(const SupportPair& pair, const Vec3& outward,
-                                  const SupportSimplex& nearest, const Vec3& across) {
+                                  const SupportSimplex& nearest, double at_most,
+                                  const Vec3& across) {
     constexpr double kNoPivot = 0x1p-44, kNoCurvature = 0x1p-20;
     const LocalCores cores_a = local_cores(pair, PairSide::a, nearest, -outward),
                      cores_b = local_cores(pair, PairSide::b, nearest, outward);
@@ -207,7 +212,7 @@ std::optional<RefinedGap> refined(const SupportPair& pair, const Vec3& outward,
                     stationary.stay_across(across);
                 if (!stationary.solve(no_pivot))
                     continue;
-                if (const auto gap = stationary.result())
+                if (const auto gap = stationary.result(); gap && gap->value <= at_most)
                     return gap;
             }
     return std::nullopt;

@@ -19,13 +19,14 @@ struct RefinedGap {
 /// In          outward: the direction, to about 1e-4. nearest: points of the difference, and the
 ///             weights of the point of their hull that is nearest to the origin, or nearly so. They
 ///             tell on which features of the cores the points are: face, edge, side, rim, vertex.
-///             across: if not zero, the direction stays across this vector.
+///             at_most: a larger value is another minimum than the one that is meant. across: if not
+///             zero, the direction stays across this vector.
 /// Out         none if the features do not agree with the direction, or Newton's method fails.
-/// Accuracy    the value and b - a: a few roundings. The direction: the same over the curvature, or
-///             1e-8 where the points are within 1e-6 of a feature's border.
+/// Accuracy    the value and b - a: a few roundings. The direction: the same over the curvature.
 /// Source      Newton's method on the conditions of a minimum with Lagrange's multipliers: the
 ///             direction is across each edge, axis or face that holds a point in its inside.
 std::optional<RefinedGap> refined(const SupportPair& pair, const Vec3& outward,
-                                  const SupportSimplex& nearest, const Vec3& across = {});
+                                  const SupportSimplex& nearest, double at_most,
+                                  const Vec3& across = {});
 
 } // namespace abut

@@ -73,8 +73,8 @@ public:
         polytope_.begin(tetrahedron);
         while (!bounds_agree() && advance()) {
         }
-        if (const auto gap = refined(pair_, outward_, polytope_.facet_along(outward_));
-            gap && gap->value <= best_ + enough_)
+        if (const auto gap =
+                refined(pair_, outward_, polytope_.facet_along(outward_), best_ + enough_))
             return result(*gap);
         // A few more points often make the bounds agree.
         constexpr int kMostBeyond = 32;
@@ -138,18 +138,26 @@ private:
         }
     }
 
-    /// Finds the points that the motion brings together. If it leaves a gap, it was not the shortest:
-    /// the motion that closes the gap, too, leaves the shapes touching, and is told in its place.
+    /// Finds the points that the motion brings together. If it leaves a gap, it was not the shortest: the
+    /// motion that closes the gap, too, leaves the shapes touching, and is told in its place. So the
+    /// points are as far apart as the depth says. The direction stays if the gap lies along it, and where
+    /// the depth is so small that the gap's direction is rounding.
     void find_points(SupportDepth& depth) const {
         // A gap of this many roundings is proven, and one of so many more is closed.
-        constexpr double kApart = 4, kClosed = 16;
+        constexpr double kApart = 4, kClosed = 16, kLargestTilt = 0x1p-20;
         const Vec3 way = (depth.depth + kApart * pair_.rounding()) * depth.normal;
         const DifferencePoint points = support_distance(pair_.moved(way), {}).simplex.nearest();
         depth.point_a = points.a, depth.point_b = points.b - way;
-        if (length(points.at) <= kClosed * pair_.rounding())
+        const double closed = kClosed * pair_.rounding();
+        if (length(points.at) <= closed)
             return;
         const Vec3 motion = way - points.at;
-        depth.depth = length(motion), depth.normal = normalized_or_zero(motion);
+        const double along = dot(motion, depth.normal),
+                     across = length(motion - along * depth.normal);
+        if (!(along > 0 && across <= std::max(closed, kLargestTilt * along)))
+            return;
+        depth.depth = across <= closed ? along : length(motion);
+        depth.normal = across <= closed ? depth.normal : normalized_or_zero(motion);
     }
 
     [[nodiscard]] SupportDepth result(const RefinedGap& gap) const {

@@ -39,8 +39,10 @@ CoreGap gap_of_parallel_axes(const SupportPair& pair, const SupportSearch& searc
     const RefinedGap found{planar.outward, planar.value, planar.nearest.nearest()};
     if (is_enough(search, -planar.at_least, -planar.value))
         return core_gap(found);
+    const double error = kCertainRoundings * pair.rounding();
     CoreGap gap =
-        core_gap(refined(pair, planar.outward, planar.nearest, {0, 1, 0}).value_or(found));
+        core_gap(refined(pair, planar.outward, planar.nearest, planar.value + error, {0, 1, 0})
+                     .value_or(found));
     gap.bounds_agree = planar.value - planar.at_least <= 4 * kDepthTolerance;
     return gap;
 }
@@ -54,6 +56,24 @@ CoreGap gap_of_depth(const SupportPair& pair, const SupportSimplex& simplex, Dep
             depth.normal,
             {{}, depth.point_a, depth.point_b},
             bounds_agree};
+}
+
+/// Turns the direction of a gap that is so short that rounding tilts it. Cores that are slightly in each
+/// other have the same direction, which the shortest motion out of that tells.
+CoreGap with_direction_of_depth(const SupportPair& pair, CoreGap gap) {
+    constexpr double kSlight =
+        0x1p-32; // far above rounding, far below the sizes, which are about 1
+    if (gap.distance > kSlight)
+        return gap;
+    const SupportPair moved = pair.moved(-(gap.distance + kSlight) * gap.normal);
+    const SupportDistance found = support_distance(moved, {});
+    if (!found.meet)
+        return gap;
+    const Vec3 normal = support_depth(moved, found.simplex, DepthEffort::full).normal;
+    const auto apart = [&](const Vec3& n) { return dot(pair.farthest(-n).at, n); };
+    if (apart(normal) > apart(gap.normal))
+        gap.normal = normal;
+    return gap;
 }
 
 CoreGap gap_in_space(const SupportPair& pair, const SupportSearch& search, SupportDepths depths) {
@@ -74,12 +94,11 @@ CoreGap gap_in_space(const SupportPair& pair, const SupportSearch& search, Suppo
         if (const CoreGap gap = gap_of_depth(pair, found.simplex, DepthEffort::full);
             gap.distance <= 0)
             return gap;
-    const auto better = refined(pair, outward, found.simplex);
     const double error = kCertainRoundings * pair.rounding();
-    if (better && -better->value >= found.at_least - error &&
-        -better->value <= found.distance + error)
+    const auto better = refined(pair, outward, found.simplex, error - found.at_least);
+    if (better && -better->value <= found.distance + error)
         return core_gap(*better);
-    return plain;
+    return with_direction_of_depth(pair, plain);
 }
 
 /// An order of shapes by nothing but what they are, so that a pair has one answer.

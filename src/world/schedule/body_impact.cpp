@@ -209,7 +209,11 @@ private:
                 return least_room_after(later, a, b, touching.normal);
             });
         };
-        while (time >= kShortest && room_after(time) < -2 * kRounding * scale_)
+        // Bodies that are apart by rounding may come nearer by rounding; others must stay apart.
+        const double rounding = kRounding * scale_,
+                     least =
+                         std::clamp(2 * (room_after(0) - rounding), -2 * rounding, 2 * rounding);
+        while (time >= kShortest && room_after(time) < least)
             time *= 0.5;
         return time >= kShortest ? time : 0;
     }
