@@ -6,8 +6,8 @@
 #include "rigid/motion/motion_bounds.h"
 #include "world/narrow_phase/narrow_phase.h"
 #include "world/narrow_phase/solid_gap.h"
+#include "world/schedule/core_impact.h"
 #include "world/schedule/deforming_impact.h"
-#include "world/schedule/model_impact.h"
 #include "world/schedule/shared_point.h"
 #include "world/schedule/turning_solids.h"
 #include "world/schedule/turning_surface.h"
@@ -62,6 +62,8 @@ double farthest_centres(const Motion& a, const Motion& b) {
 
 class Advancement {
 public:
+    static constexpr std::uint64_t kMostSteps = 1000, kMostOfCurved = 8192;
+
     Advancement(const MovingBody& a, const MovingBody& b, const ImpactOptions& options)
         : a_(a), b_(b), options_(options), reach_a_(reach_of(a)), reach_b_(reach_of(b)),
           swing_a_(core_reach_of(a)), swing_b_(core_reach_of(b)), plane_a_(is_half_space(a.shape)),
@@ -81,9 +83,8 @@ public:
     }
 
     Impact run() const {
-        constexpr std::uint64_t kMostSteps = 1000;
         ImpactSteps steps(options_);
-        Impact impact = search(steps, kMostSteps);
+        Impact impact = search(steps, is_any_curved_ ? kMostOfCurved : kMostSteps);
         impact.steps = steps.count();
         return impact;
     }
@@ -376,6 +377,16 @@ bool touch_at_start(const MovingBody& a, const MovingBody& b) {
     return touch({a.shape, world_a}, {b.shape, world_b}, warm_start);
 }
 
+/// In          not touching at the start.
+Impact impact_of_cores(const MovingBody& a, const MovingBody& b, const ImpactOptions& options) {
+    const double tolerance =
+        options.absolute_error.value_or(kImpactTolerance * std::min(size_of(a), size_of(b)));
+    Impact impact = core_impact(a, b, tolerance, options);
+    if (impact.status == Status::bound_only && !impact.out_of_steps)
+        Advancement(a, b, options).prove(impact);
+    return impact;
+}
+
 } // namespace
 
 Box3 swept_bounds(const MovingBody& body) {
@@ -414,16 +425,20 @@ Impact body_impact(const MovingBody& a, const MovingBody& b, const ImpactOptions
         return deforming_impact(a, b, options);
     if (is_model(a) && is_model(b))
         return time_of_impact(model_of(a.shape), a.motion, model_of(b.shape), b.motion, options);
-    if (((is_model(a) && has_core(b)) || (has_core(a) && is_model(b))) && !touch_at_start(a, b)) {
-        const double tolerance =
-            options.absolute_error.value_or(kImpactTolerance * std::min(size_of(a), size_of(b)));
-        Impact impact = is_model(a) ? model_impact(a, b, tolerance, options)
-                                    : turned_round(model_impact(b, a, tolerance, options));
-        if (impact.status == Status::bound_only && !impact.out_of_steps)
-            Advancement(a, b, options).prove(impact);
+    if (((is_model(a) && has_core(b)) || (has_core(a) && is_model(b))) && !touch_at_start(a, b))
+        return is_model(a) ? impact_of_cores(a, b, options)
+                           : turned_round(impact_of_cores(b, a, options));
+    const Impact impact = Advancement(a, b, options).run();
+    if (impact.steps < Advancement::kMostSteps || impact.contact_time <= 1 || !has_core(a) ||
+        !has_core(b))
         return impact;
-    }
-    return Advancement(a, b, options).run();
+    // Large bodies that turn beside small ones: planes that turn with them prove more at a time.
+    ImpactOptions left = options;
+    if (options.max_steps)
+        left.max_steps = *options.max_steps - impact.steps;
+    Impact of_cores = impact_of_cores(a, b, left);
+    of_cores.steps += impact.steps;
+    return of_cores;
 }
 
 } // namespace abut

@@ -4,13 +4,13 @@
 
 namespace abut {
 
-/// Finds the first time at which the surface of a model and a ball, capsule, box or convex body meet
-/// that share no point at the start.
+/// Finds the first time at which two bodies meet that share no point at the start, each a model, ball,
+/// capsule, box or convex body: by the surfaces of their cores.
 ///
 /// In          tolerance: length; at the returned time the bodies are at most this far apart.
 /// Accuracy    as `time_of_impact`. Bodies that slide along each other are followed triangle by
 ///             triangle, so a distance that stays short does not end the search.
-Impact model_impact(const MovingBody& model, const MovingBody& solid, double tolerance,
-                    const ImpactOptions& options);
+Impact core_impact(const MovingBody& a, const MovingBody& b, double tolerance,
+                   const ImpactOptions& options);
 
 } // namespace abut
