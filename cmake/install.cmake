@@ -57,6 +57,7 @@ configure_package_config_file(cmake/AbutConfig.cmake.in ${PROJECT_BINARY_DIR}/Ab
                               INSTALL_DESTINATION ${cmake_files})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/AbutConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/AbutConfig.cmake ${PROJECT_BINARY_DIR}/AbutConfigVersion.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/AbutLibraries.cmake
         DESTINATION ${cmake_files} COMPONENT dev)
 
 # pkg-config. The files find their prefix by their own place, so an installed folder may be moved.
