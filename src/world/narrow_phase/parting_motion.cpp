@@ -59,6 +59,34 @@ PartingMotion motion_along(const Vec3& direction, const MetTriangles& met,
     return motion;
 }
 
+/// The part of a motion after which the solid touches a triangle; its points are those that touch then. A
+/// solid that reaches over the border of a surface has its lowest point beyond it.
+std::optional<PartingMotion> ending_in_touch(PartingMotion motion, const MetTriangles& met,
+                                             const SupportShape& solid, double touching) {
+    constexpr int kMostRounds = 32;
+    Vec3 guess;
+    for (int round = 0; round < kMostRounds; ++round) {
+        SupportShape moved = solid;
+        moved.centre = solid.centre + motion.length * motion.direction;
+        double back = motion.length;
+        for (const MetTriangle& each : met) {
+            const SupportGap gap =
+                support_gap(support_of(each.corners), moved,
+                            std::numeric_limits<double>::infinity(), SupportDepths::no, guess);
+            if (gap.distance <= touching) {
+                motion.point = gap.point_b - motion.length * motion.direction;
+                motion.triangle = each.number;
+                return motion;
+            }
+            // The planes across the gap stay apart on so much of the way back.
+            if (const double closing = dot(motion.direction, gap.normal); closing > 0)
+                back = std::min(back, gap.distance / closing);
+        }
+        motion.length -= back;
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
 std::optional<PartingMotion> find_parting_motion(const PlacedModel& model,
@@ -95,10 +123,11 @@ std::optional<PartingMotion> find_parting_motion(const PlacedModel& model,
                    touching * touching;
         });
     };
-    if (best && !is_on_surface(*best))
-        return std::nullopt;
     const bool is_known = best && best->direction == known.direction;
-    return is_known && best->length <= known.length * kSame + rounding ? std::nullopt : best;
+    if (best && !is_on_surface(*best))
+        best = ending_in_touch(*best, met, solid, touching);
+    return is_known && best && best->length <= known.length * kSame + rounding ? std::nullopt
+                                                                               : best;
 }
 
 } // namespace abut

@@ -12,7 +12,7 @@ namespace abut {
 struct PartingMotion {
     Vec3 direction;             ///< unit vector from the surface to the solid, which moves along it
     double length = 0;          ///< not negative
-    Vec3 point;                 ///< the solid's farthest point against the direction
+    Vec3 point;                 ///< of the solid; after the motion, it lies on the surface
     std::uint32_t triangle = 0; ///< the one that needs the longest motion
 };
 
@@ -21,9 +21,8 @@ struct PartingMotion {
 /// over the border to a neighbour in the same plane.
 ///
 /// In          known: the depth in one triangle. If a motion by it parts all, and no other is as short,
-///             nothing is returned. Nor is anything if the solid meets more than 64 triangles, or if the
-///             place of the surface opposite the point is none of theirs. touching: triangles no farther
-///             away count as met.
+///             nothing is returned. Nor is anything if the solid meets more than 64 triangles.
+///             touching: triangles no farther away count as met.
 std::optional<PartingMotion> find_parting_motion(const PlacedModel& model,
                                                  const SupportShape& solid,
                                                  const PartingMotion& known, double touching);

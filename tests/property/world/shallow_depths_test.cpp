@@ -108,6 +108,44 @@ TEST(ShallowDepths, NormalsAreThoseOfTheFlatTop) {
             }
 }
 
+TEST(ShallowDepths, SolidsThatReachOverABorderLeaveUpwards) {
+    Random random(20261202);
+    const auto solids = standing_solids();
+    const std::array<Model, 3> tops = flat_tops();
+    for (int round = 0; round < many(25); ++round)
+        for (const auto& [name, solid] : solids) {
+            if (name.find("convex") != std::string::npos || name == "cone on its apex" ||
+                name == "ellipsoid")
+                continue; // these touch at a point or on a line of their own
+            const std::size_t top = static_cast<std::size_t>(random.integer(0, 2));
+            const double depth = std::pow(10.0, -random.uniform(3, 13));
+            SCOPED_TRACE(name + " on top " + std::to_string(top) + ", depth " +
+                         std::to_string(depth * 1e12) + "e-12, round " + std::to_string(round));
+            // Half of it or less is beyond the border, or beyond a corner.
+            Pose on_top;
+            on_top.translation = {(random.chance(0.5) ? 2 : -2) + random.uniform(-0.1, 0.1),
+                                  random.uniform(-1.95, 1.95), -depth};
+            on_top.rotation = {1, 0, 0, random.chance(0.5) ? 0 : random.uniform(-0.3, 0.3)};
+            const Pose frame = random.chance(0.6) ? random.pose(5) : Pose{};
+            const Vec3 up = apply(Transform(frame), Vec3{0, 0, 1}) - frame.translation;
+            World world;
+            world.add(tops.at(top), frame);
+            const BodyId body = add(world, solid, placed_in_frame(frame, on_top));
+            const std::vector<BodyGap> found = world.penetration();
+            ASSERT_EQ(found.size(), 1U);
+            EXPECT_LE(length(found[0].normal - up), 1e-9 + 1e-14 / depth);
+            EXPECT_NEAR(found[0].distance, -depth, 2e-13);
+            // The points are those that the motion brings together, on the top.
+            const Vec3 on_surface = apply(inverse(Transform(frame)), found[0].point_a);
+            EXPECT_NEAR(on_surface.z, 0, 2e-13);
+            EXPECT_LE(std::max(std::abs(on_surface.x), std::abs(on_surface.y)), 2 + 1e-12);
+            Pose away = placed_in_frame(frame, on_top);
+            away.translation = away.translation + (1e-11 - found[0].distance) * found[0].normal;
+            world.move(body, away);
+            EXPECT_TRUE(world.collide().empty());
+        }
+}
+
 TEST(ShallowDepths, MovingByTheDepthPartsCurvedSolidsFromModels) {
     Random random(20261201);
     const auto solids = standing_solids();
