@@ -37,9 +37,9 @@ using TaskRunner =
 /// Reading files, imports into a store, levels of detail and what a walk loads ahead keep threads of
 /// their own.
 ///
-/// In          threads: how many tasks a query hands in at most at once.
-/// Errors      Error{bad_argument}: threads below 1. What the function throws reaches the query's
-///             caller; it may throw only while none of the tasks runs.
+/// In          threads: how many tasks a query hands in at most at once. The function may throw if it takes
+///             no tasks, and only while none of them runs: the thread that asks then does the work.
+/// Errors      Error{bad_argument}: threads below 1.
 void set_task_runner(TaskRunner run, int threads);
 
 /// Returns the peak resident memory, in MiB, of this process or of any of its finished children,

@@ -51,14 +51,19 @@ void TaskPool::run(std::size_t count, const std::function<void()>& work) const {
         std::mutex mutex;
         std::exception_ptr failure;
     } job{work, {}, {}};
-    runner_(std::min(count, threads_), [&job](std::size_t) {
+    const auto task = [&job](std::size_t) {
         try {
             job.work();
         } catch (...) {
             const std::scoped_lock lock(job.mutex);
             job.failure = std::current_exception();
         }
-    });
+    };
+    try {
+        runner_(std::min(count, threads_), task);
+    } catch (...) { // it takes no tasks
+        task(0);
+    }
     if (job.failure)
         std::rethrow_exception(job.failure);
 }

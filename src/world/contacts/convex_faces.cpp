@@ -77,6 +77,7 @@ std::optional<ConvexFaces> faces_of(const Model& model, const Transform& world_f
     faces.vertices.assign(surface->corners.begin(), surface->corners.end());
     faces.numbers.assign(surface->vertices.begin(), surface->vertices.end());
     faces.middle = surface->middle, faces.reach = surface->reach;
+    faces.is_surface = true;
     return faces;
 }
 

@@ -22,6 +22,7 @@ struct ConvexFaces {
     Vec3 middle;                                               ///< inside
     Transform world_from_solid;
     double reach = 0; ///< no vertex is farther from `middle`
+    bool is_surface = false; ///< a model's, which shares no point with what lies wholly inside
 };
 
 /// The faces of a box, a convex body or the model of a convex solid. None if the solid is flat, has a

@@ -86,6 +86,8 @@ public:
             end = std::find_if(begin, sorted.end(),
                                [&](const auto* t) { return t->region != (*begin)->region; });
             memory_.region.assign(begin, end);
+            if (solid_.is_surface && is_region_inside())
+                return false;
             const std::uint32_t parts = split();
             for (std::uint32_t k = 0; k < parts; ++k) {
                 memory_.part.clear();
@@ -100,6 +102,18 @@ public:
     }
 
 private:
+    /// Whether the region lies inside the solid, clear of its faces.
+    [[nodiscard]] bool is_region_inside() const {
+        const auto is_inside = [&](const Vec3& p) {
+            return std::all_of(solid_.planes.begin(), solid_.planes.end(),
+                               [&](const ConvexFaces::Plane& plane) {
+                                   return dot(plane.normal, p) < plane.offset - limits_.rounding;
+                               });
+        };
+        return std::all_of(memory_.region.begin(), memory_.region.end(), [&](const auto* t) {
+            return std::all_of(t->corners.begin(), t->corners.end(), is_inside);
+        });
+    }
     /// Splits a region that bends around a hollow. Returns the number of parts.
     std::uint32_t split() {
         const auto& region = memory_.region;

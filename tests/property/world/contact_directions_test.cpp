@@ -161,6 +161,52 @@ TEST(ContactDirections, ABodyInsideAClosedModelIsInNoContact) {
         }
 }
 
+/// An open surface inside, also as one of several pieces, and one that comes through.
+TEST(ContactDirections, ASheetInsideAClosedModelIsInNoContact) {
+    Random random(20261129);
+    int inside = 0, through = 0;
+    for (int round = 0; round < many(150); ++round) {
+        std::vector<Vec3> corners;
+        for (int i = random.integer(8, 30); i > 0; --i)
+            corners.push_back(10 * random.direction());
+        const Model hull(Convex(corners).mesh());
+        const double size = random.uniform(1, 7), bend = random.chance(0.5) ? 0.3 : 0;
+        Mesh sheets = grid_mesh(4, 4, false, false, [&](double u, double v) {
+            return Vec3{size * (2 * u - 1), size * (2 * v - 1), bend * std::sin(9 * u)};
+        });
+        if (random.chance(0.4)) { // and one far away
+            const auto first = static_cast<std::uint32_t>(sheets.positions.size());
+            sheets.positions.insert(sheets.positions.end(), {{40, 0, 0}, {41, 0, 0}, {40, 1, 0}});
+            sheets.triangles.push_back({first, first + 1, first + 2});
+        }
+        Pose pose = random.pose(0);
+        pose.translation = random.in_cube(3);
+        World world;
+        const bool hull_first = random.chance(0.5);
+        if (hull_first)
+            world.add(hull, {});
+        world.add(Model(sheets), pose);
+        if (!hull_first)
+            world.add(hull, {});
+        SCOPED_TRACE(round);
+        const Answers answers = answers_of(world);
+        EXPECT_EQ(answers.contacts > 0, answers.collide > 0);
+        EXPECT_EQ(answers.penetration, answers.collide);
+        (answers.collide > 0 ? through : inside) += 1;
+        const std::vector<BodyGap> near = world.within(2);
+        const std::vector<ContactManifold> contacts = world.contact_manifolds(2);
+        EXPECT_EQ(contacts.empty(), near.empty());
+        if (answers.collide > 0 || near.empty())
+            continue;
+        double deepest = -HUGE_VAL;
+        for (const ContactManifold& each : contacts)
+            deepest = std::max(deepest, each.points[0].depth);
+        EXPECT_NEAR(deepest, -near[0].distance, 1e-12);
+    }
+    EXPECT_GT(inside, many(150) / 4);
+    EXPECT_GT(through, many(150) / 20);
+}
+
 Model plate(int n) {
     return Model(grid_mesh(n, n, false, false, [](double u, double v) {
         return Vec3{2 * u - 1, 2 * v - 1, 0};

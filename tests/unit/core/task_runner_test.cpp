@@ -194,6 +194,22 @@ TEST(TaskRunner, TasksMayRunInAnyOrderOnTheThreadThatAsks) {
     EXPECT_GT(tasks, 0U);
 }
 
+TEST(TaskRunner, APoolThatTakesNoTasksLeavesTheWorkToTheThreadThatAsks) {
+    const auto expected = crowd().contact_manifolds(0.01);
+    int calls = 0;
+    set_task_runner(
+        [&](std::size_t, const auto&) {
+            ++calls;
+            throw std::runtime_error("the queue is full");
+        },
+        4);
+    World world = crowd();
+    const auto found = world.contact_manifolds(0.01);
+    set_task_runner({}, 0);
+    expect_equal(found, expected);
+    EXPECT_GT(calls, 0);
+}
+
 TEST(TaskRunner, FaultsAndStopsReachTheCaller) {
     const Handed handed(2);
     EXPECT_THROW(parallel_for(100, 1,
