@@ -66,10 +66,10 @@ std::vector<MovingBox> moving_boxes(std::span<const MovingVertex> vertices) {
     return boxes;
 }
 
-/// Fits the boxes of one end of the step to the positions at this or the other end.
-void fit_end(SweptTree& swept, const DeformableData& data, StepEnd end, StepEnd positions) {
+/// Fits the boxes of one end of the step to the positions there.
+void fit_end(SweptTree& swept, const DeformableData& data, StepEnd end) {
     const SurfaceView surface = data.surface();
-    const std::vector<Aabb> boxes = vertex_boxes(data.vertices, positions);
+    const std::vector<Aabb> boxes = vertex_boxes(data.vertices, end);
     const bool has_boxes = swept.leaves.has_boxes();
     fit(swept.tree, end, [&](std::uint32_t leaf) {
         return has_boxes ? fit_leaf(swept.leaves, leaf, end, surface, boxes)
@@ -96,12 +96,6 @@ void start_at_end(SweptTree& swept) {
 }
 
 } // namespace
-
-void fit_at(SweptTree& swept, const DeformableData& data, StepEnd end) {
-    fit_end(swept, data, StepEnd::end, end);
-    start_at_end(swept);
-    swept.fitted_to = {end, end};
-}
 
 DeformableData::DeformableData() = default;
 DeformableData::~DeformableData() = default;
@@ -144,8 +138,8 @@ void DeformableData::fit_boxes(FirstBoxes first) {
     if (first == FirstBoxes::last_ends)
         start_at_end(swept);
     else
-        fit_end(swept, *this, StepEnd::start, StepEnd::start);
-    fit_end(swept, *this, StepEnd::end, StepEnd::end);
+        fit_end(swept, *this, StepEnd::start);
+    fit_end(swept, *this, StepEnd::end);
     if (feature_trees)
         for (const StepEnd end : kStepEnds)
             feature_trees->fit(surface(), end, vertex_boxes(vertices, end));

@@ -22,8 +22,6 @@ struct FeatureTrees;
 struct SweptTree {
     MovingTree tree;
     LeafFeatures leaves; ///< without boxes if the surface is lean: see leaf_boxes.h
-    /// The positions that the boxes at the start and at the end enclose. See fit_at().
-    std::array<StepEnd, 2> fitted_to{StepEnd::start, StepEnd::end};
 };
 
 /// The boxes at the start of a step.
@@ -81,8 +79,5 @@ private:
 
     double looseness_when_built_ = 0;
 };
-
-/// Fits all boxes to the positions at one end of the step, as if nothing moved.
-void fit_at(SweptTree& swept, const DeformableData& data, StepEnd end);
 
 } // namespace abut

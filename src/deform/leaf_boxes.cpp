@@ -12,15 +12,13 @@ constexpr std::size_t kPlaces = 256;
 /// made of them.
 class LeafVertices {
 public:
-    /// In: where the boxes at the start and at the end of the step are fitted to.
-    LeafVertices(const DeformableData& surface, const FeatureRuns& faces, std::uint32_t leaf,
-                 const std::array<StepEnd, 2>& fitted_to) {
+    LeafVertices(const DeformableData& surface, const FeatureRuns& faces, std::uint32_t leaf) {
         for (std::uint32_t k = 0; k < faces.count(leaf); ++k)
             for (const std::uint32_t v : surface.triangles[faces.ids(leaf)[k]])
                 if (place_of(v) == count_) {
                     const MovingVertex& vertex = surface.vertices[v];
                     ids_[count_] = v;
-                    boxes_[count_++] = {box_at(vertex, fitted_to[0]), box_at(vertex, fitted_to[1])};
+                    boxes_[count_++] = {box_at(vertex.start), box_at(vertex.end)};
                 }
     }
 
@@ -39,10 +37,7 @@ public:
     }
 
 private:
-    static Aabb box_at(const MovingVertex& vertex, StepEnd end) {
-        const Vec3& p = end == StepEnd::start ? vertex.start : vertex.end;
-        return Aabb(Box3{p, p});
-    }
+    static Aabb box_at(const Vec3& p) { return Aabb(Box3{p, p}); }
     [[nodiscard]] std::size_t place_of(std::uint32_t vertex) const {
         std::size_t i = 0;
         while (i < count_ && ids_[i] != vertex)
@@ -115,7 +110,7 @@ LeafRuns LeafBoxes::fitted_runs(std::uint32_t leaf) {
 void LeafBoxes::fit(std::uint32_t leaf, FittedLeaf& fitted) const {
     const DeformableData& surface = source_.surface();
     const LeafFeatures& leaves = source_.swept().leaves;
-    const LeafVertices vertices(surface, leaves.faces, leaf, source_.swept().fitted_to);
+    const LeafVertices vertices(surface, leaves.faces, leaf);
     float* rows = write_run(leaves.faces, leaf, fitted.rows.data(),
                             [&](std::uint32_t id) { return vertices.box(surface.triangles[id]); });
     rows = write_run(leaves.edges, leaf, rows,

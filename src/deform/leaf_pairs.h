@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace abut {
@@ -25,13 +26,15 @@ public:
 
     /// Leaves out pairs of features that do not overlap until this time (see find_overlaps).
     void set_until(float until) { until_ = until; }
+    /// Compares the boxes at one end of the step only.
+    void set_at(StepEnd end) { at_ = end; }
 
     bool visit(std::uint32_t i, std::uint32_t j) override {
         const bool same = pairs_.is_self() && i == j;
         auto& [faces, edges, vertex_face, vertex_of_b] = overlaps_;
         const LeafRuns a = a_.runs(i), b = b_.runs(j);
         faces.a = a.faces, faces.b = b.faces;
-        find_overlaps(std::span(overlaps_).first(1), margin_, until_);
+        overlap(std::span(overlaps_).first(1));
         if (same)
             faces.keep_once();
         const std::uint32_t triangle_pairs = faces.count();
@@ -42,7 +45,7 @@ public:
         edges.a = a.edges, edges.b = b.edges;
         vertex_face.a = a.vertices, vertex_face.b = b.faces;
         vertex_of_b.a = b.vertices, vertex_of_b.b = a.faces;
-        find_overlaps(std::span(overlaps_).subspan(1, same ? 2 : 3), margin_, until_);
+        overlap(std::span(overlaps_).subspan(1, same ? 2 : 3));
         if (same)
             edges.keep_once();
         edges.for_each([&](auto e, auto f) { pairs_.edges(e, f); });
@@ -55,9 +58,17 @@ public:
     [[nodiscard]] std::uint64_t triangle_pairs() const { return triangle_pairs_; }
 
 private:
+    void overlap(std::span<RunOverlaps> overlaps) const {
+        if (at_)
+            find_overlaps_at(overlaps, margin_, *at_);
+        else
+            find_overlaps(overlaps, margin_, until_);
+    }
+
     LeafBoxes a_, b_;
     float margin_;
     float until_ = 1;
+    std::optional<StepEnd> at_;
     FeaturePairs<Sink>& pairs_;
     std::uint64_t triangle_pairs_ = 0;
     std::array<RunOverlaps, 4> overlaps_;

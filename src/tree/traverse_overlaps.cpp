@@ -25,32 +25,37 @@ namespace abut::HWY_NAMESPACE {
 
 using namespace traverse_overlaps_detail; // NOLINT(google-build-using-namespace): its own
 
-/// A bit for each child of a node whose box may come within the margin of the given box.
+/// A bit for each child of a node whose box may come within the margin of the given box, at any time
+/// or at one end of the motion.
 HWY_INLINE std::uint32_t near_children(const MovingNode& node, const MovingBoxRef& box,
-                                       float margin) {
+                                       float margin, std::optional<StepEnd> at) {
     const MovingBoxLanes::D d;
     const auto minus_margin = hn::Set(d, -margin);
     std::uint32_t bits = 0;
     for (std::size_t first = 0; first < MovingNode::kWidth; first += hn::Lanes(d))
-        bits |= MovingBoxLanes(node.boxes(), first).overlap_bits(box, minus_margin) << first;
+        bits |= (at ? StandingBoxLanes(node.boxes(), first, *at).overlap_bits(box, minus_margin)
+                    : MovingBoxLanes(node.boxes(), first).overlap_bits(box, minus_margin))
+                << first;
     return bits;
 }
 
-/// Pairs of children whose boxes may come within the margin of each other at some time.
+/// Pairs of children whose boxes may come within the margin of each other.
 class PendingOverlaps {
 public:
-    PendingOverlaps(float margin, PairStack& pairs) : margin_(margin), pairs_(pairs) {}
+    PendingOverlaps(const OverlapTraversal& traversal, PairStack& pairs)
+        : margin_(traversal.margin), at_(traversal.at), pairs_(pairs) {}
 
     void add_self(std::uint32_t name) { pairs_.push_back({name, name}); }
     template <typename PairOf>
     void add_near(const MovingNode& node, const MovingBoxRef& box, std::uint32_t wanted,
                   const PairOf& pair_of) {
-        for (const std::uint32_t lane : SetBits(near_children(node, box, margin_) & wanted))
+        for (const std::uint32_t lane : SetBits(near_children(node, box, margin_, at_) & wanted))
             pairs_.push_back(pair_of(lane));
     }
 
 private:
     float margin_;
+    std::optional<StepEnd> at_;
     PairStack& pairs_;
 };
 
@@ -59,7 +64,7 @@ bool traverse_overlaps(const OverlapTraversal& traversal, OverlapTraversal::Pair
     if (traversal.a.empty() || traversal.b.empty())
         return true;
     PairStack pairs{start};
-    PendingOverlaps pending(traversal.margin, pairs);
+    PendingOverlaps pending(traversal, pairs);
     OverlapOpener opener(traversal, pending);
     SearchSteps steps;
     while (!pairs.empty()) {
@@ -80,7 +85,7 @@ void split_overlaps(const OverlapTraversal& traversal, std::size_t wanted, PairS
     for (bool opened = true; opened && pairs.size() < wanted;) {
         opened = false;
         PairStack next;
-        PendingOverlaps pending(traversal.margin, next);
+        PendingOverlaps pending(traversal, next);
         OverlapOpener opener(traversal, pending);
         for (const OverlapTraversal::Pair& pair : pairs) {
             const NodeRef a = traversal.a.named(pair.a), b = traversal.b.named(pair.b);

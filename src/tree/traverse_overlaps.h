@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct OverlapTraversal {
     /// For a tree against itself, by node: not 0 if the leaves below the node are not to be visited
     /// with each other. May be empty.
     std::span<const std::uint8_t> skipped{};
+    /// If it is set, the boxes at that end of the motion are compared, not those of the motion.
+    std::optional<StepEnd> at{};
 
     /// Two children, given by their names.
     struct Pair {

@@ -140,6 +140,41 @@ private:
     hn::Vec<D> lower_[2][3], upper_[2][3]; ///< [start, end][axis]
 };
 
+/// The boxes of a run at one end of the motion in SIMD lanes, with a register for each bound.
+class StandingBoxLanes {
+public:
+    using D = MovingBoxLanes::D;
+
+    HWY_INLINE StandingBoxLanes(const MovingBoxRun& run, std::size_t first, StepEnd end)
+        : first_row_(end == StepEnd::start ? 0 : MovingBoxRun::kEnd) {
+        const float* row = run.rows + first_row_ * run.count + first;
+        for (std::size_t axis = 0; axis < 3; ++axis, row += run.count) {
+            lower_[axis] = hn::LoadU(D(), row);
+            upper_[axis] = hn::LoadU(D(), row + std::size_t{3} * run.count);
+        }
+    }
+
+    /// A bit for each box that may come within the margin of the given box at that end.
+    /// Conservative, as MovingBoxLanes::overlap_bits.
+    [[nodiscard]] HWY_INLINE std::uint32_t overlap_bits(const MovingBoxRef& box,
+                                                        hn::Vec<D> minus_margin) const {
+        const D d;
+        const float* row = box.run.rows + first_row_ * box.run.count + box.place;
+        auto overlap = hn::Set(d, std::numeric_limits<float>::infinity());
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto lower = hn::Set(d, row[axis * box.run.count]),
+                       upper = hn::Set(d, row[(axis + 3) * box.run.count]);
+            overlap = hn::Min(overlap,
+                              hn::Min(hn::Sub(upper, lower_[axis]), hn::Sub(upper_[axis], lower)));
+        }
+        return bits_of(d, hn::Ge(overlap, minus_margin));
+    }
+
+private:
+    std::size_t first_row_;
+    hn::Vec<D> lower_[3], upper_[3];
+};
+
 } // namespace abut::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

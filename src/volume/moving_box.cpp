@@ -11,15 +11,16 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
-/// `bits_of(lanes, box)` returns a bit for each lane that may come near the box.
-template <typename BitsOf>
-HWY_INLINE void find_tiles(RunOverlaps& overlaps, const BitsOf& bits_of) {
+/// `lanes_of(run, first)` loads the boxes from `first` on. `bits_of(lanes, box)` returns a bit for
+/// each lane that may come near the box.
+template <typename LanesOf, typename BitsOf>
+HWY_INLINE void find_tiles(RunOverlaps& overlaps, const LanesOf& lanes_of, const BitsOf& bits_of) {
     const MovingBoxRun a = overlaps.a, b = overlaps.b;
     constexpr std::uint32_t kTile = RunOverlaps::kTile;
     const std::uint32_t tiles_b = RunOverlaps::tiles_of(b);
     for (std::uint32_t first = 0; first < b.count;
          first += static_cast<std::uint32_t>(hn::Lanes(MovingBoxLanes::D()))) {
-        const MovingBoxLanes lanes(b, first);
+        const auto lanes = lanes_of(b, first);
         const std::uint32_t used = b.all() >> first;
         std::uint64_t* tile = overlaps.tiles.data() + first / kTile;
         for (std::uint32_t k = 0; k < a.count; k += kTile, tile += tiles_b) {
@@ -32,18 +33,35 @@ HWY_INLINE void find_tiles(RunOverlaps& overlaps, const BitsOf& bits_of) {
     }
 }
 
+HWY_INLINE MovingBoxLanes moving_lanes(const MovingBoxRun& run, std::uint32_t first) {
+    return {run, first};
+}
+
 void find_all_overlaps(std::span<RunOverlaps> overlaps, float margin) {
     const auto minus_margin = hn::Set(MovingBoxLanes::D(), -margin);
     for (RunOverlaps& each : overlaps)
-        find_tiles(each, [&](const MovingBoxLanes& lanes, const MovingBoxRef& box)
-                             HWY_ATTR { return lanes.overlap_bits(box, minus_margin); });
+        find_tiles(each, moving_lanes,
+                   [&](const MovingBoxLanes& lanes, const MovingBoxRef& box)
+                       HWY_ATTR { return lanes.overlap_bits(box, minus_margin); });
+}
+
+void find_overlaps_at(std::span<RunOverlaps> overlaps, float margin, StepEnd end) {
+    const auto minus_margin = hn::Set(MovingBoxLanes::D(), -margin);
+    for (RunOverlaps& each : overlaps)
+        find_tiles(
+            each,
+            [&](const MovingBoxRun& run, std::uint32_t first)
+                HWY_ATTR { return StandingBoxLanes(run, first, end); },
+            [&](const StandingBoxLanes& lanes, const MovingBoxRef& box)
+                HWY_ATTR { return lanes.overlap_bits(box, minus_margin); });
 }
 
 void find_overlaps_until(std::span<RunOverlaps> overlaps, float margin, float until) {
     const UntilLanes part(until, margin);
     for (RunOverlaps& each : overlaps)
-        find_tiles(each, [&](const MovingBoxLanes& lanes, const MovingBoxRef& box)
-                             HWY_ATTR { return lanes.overlaps_until(box, part).until; });
+        find_tiles(each, moving_lanes,
+                   [&](const MovingBoxLanes& lanes, const MovingBoxRef& box)
+                       HWY_ATTR { return lanes.overlaps_until(box, part).until; });
 }
 
 } // namespace abut::HWY_NAMESPACE
@@ -54,12 +72,16 @@ namespace abut {
 
 HWY_EXPORT(find_all_overlaps);
 HWY_EXPORT(find_overlaps_until);
+HWY_EXPORT(find_overlaps_at);
 
 void find_overlaps(std::span<RunOverlaps> overlaps, float margin, float until) {
     if (until < 1)
         HWY_DYNAMIC_DISPATCH(find_overlaps_until)(overlaps, margin, until);
     else
         HWY_DYNAMIC_DISPATCH(find_all_overlaps)(overlaps, margin);
+}
+void find_overlaps_at(std::span<RunOverlaps> overlaps, float margin, StepEnd end) {
+    HWY_DYNAMIC_DISPATCH(find_overlaps_at)(overlaps, margin, end);
 }
 
 } // namespace abut

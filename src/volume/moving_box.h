@@ -136,5 +136,10 @@ private:
 /// Accuracy    conservative: every pair that comes within the margin until that time has its bit.
 /// Cost        about 30 instructions for a box against eight; 40 if `until` is below 1.
 void find_overlaps(std::span<RunOverlaps> overlaps, float margin, float until = 1);
+/// As find_overlaps, but compares the boxes at one end of the motion only.
+///
+/// Accuracy    conservative: every pair that is within the margin at that end has its bit.
+/// Cost        half of that of find_overlaps.
+void find_overlaps_at(std::span<RunOverlaps> overlaps, float margin, StepEnd end);
 
 } // namespace abut

@@ -9,9 +9,7 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 namespace abut {
@@ -22,24 +20,19 @@ namespace {
 constexpr std::size_t kIntersectionTasks = 512;
 constexpr std::size_t kVerticesAtOnce = 8192;
 
-/// A surface at one end of its step: its positions there, and a hierarchy that encloses them.
+/// A surface at one end of its step.
 class SurfaceAtRest {
 public:
     SurfaceAtRest(const DeformableData& surface, StepEnd end)
-        : surface_(surface), positions_(surface.vertices.size()) {
+        : surface_(surface), end_(end), positions_(surface.vertices.size()) {
         parallel_for(positions_.size(), kVerticesAtOnce, [&](std::size_t i) {
             const MovingVertex& v = surface.vertices[i];
             positions_[i] = end == StepEnd::start ? v.start : v.end;
         });
-        if (surface.is_at_rest())
-            return;
-        auto fitted = std::make_unique<SweptTree>(surface.swept);
-        fit_at(*fitted, surface, end);
-        fitted_ = std::move(fitted);
     }
 
     [[nodiscard]] const DeformableData& surface() const { return surface_; }
-    [[nodiscard]] const SweptTree& swept() const { return fitted_ ? *fitted_ : surface_.swept; }
+    [[nodiscard]] StepEnd end() const { return end_; }
     [[nodiscard]] const std::array<std::uint32_t, 2>& edge(std::uint32_t id) const {
         return surface_.features.edges[id];
     }
@@ -54,8 +47,8 @@ public:
 
 private:
     const DeformableData& surface_;
+    StepEnd end_;
     std::vector<Vec3> positions_;
-    std::unique_ptr<const SweptTree> fitted_; ///< null if the surface's own hierarchy serves
 };
 
 /// Tests the edges that one of two leaves represents against the faces of the other. A leaf's box
@@ -64,8 +57,9 @@ class EdgeFaceLeaves final : public OverlapVisitor {
 public:
     EdgeFaceLeaves(const SurfaceAtRest& a, const SurfaceAtRest& b,
                    std::vector<EdgeFaceIntersection>& list)
-        : a_(a), b_(b), source_a_(a.surface(), a.swept()), source_b_(b.surface(), b.swept()),
-          leaves_a_(source_a_), leaves_b_(source_b_), is_self_(&a == &b), list_(list) {}
+        : a_(a), b_(b), source_a_(a.surface(), a.surface().swept),
+          source_b_(b.surface(), b.surface().swept), leaves_a_(source_a_), leaves_b_(source_b_),
+          is_self_(&a == &b), list_(list) {}
 
     bool visit(std::uint32_t i, std::uint32_t j) override {
         poll_stop();
@@ -74,7 +68,7 @@ public:
         const LeafRuns leaf_a = leaves_a_.runs(i), leaf_b = leaves_b_.runs(j);
         edges_first.a = leaf_a.edges, edges_first.b = leaf_b.faces;
         faces_first.a = leaf_b.edges, faces_first.b = leaf_a.faces;
-        find_overlaps(std::span(overlaps_).first(same ? 1 : 2), 0);
+        find_overlaps_at(std::span(overlaps_).first(same ? 1 : 2), 0, a_.end());
         edges_first.for_each([&](auto edge, auto face) { test(a_, edge, b_, face, false); });
         if (!same)
             faces_first.for_each([&](auto edge, auto face) { test(b_, edge, a_, face, true); });
@@ -113,7 +107,7 @@ private:
 
 std::vector<EdgeFaceIntersection> find_intersections(const SurfaceAtRest& a,
                                                      const SurfaceAtRest& b) {
-    OverlapTraversal traversal{a.swept().tree, b.swept().tree};
+    OverlapTraversal traversal{a.surface().swept.tree, b.surface().swept.tree, 0, {}, a.end()};
     if (&a == &b)
         traversal.skipped = a.surface().flat_regions.flat();
     const std::vector<OverlapTraversal::Pair> starts =
