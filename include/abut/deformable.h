@@ -100,15 +100,54 @@ struct Impacts {
     DeformableCounters counters;
 };
 
-/// Two features that are near each other at the start of the step.
+/// Two features that are near each other at one end of the step, with all that a constraint on their
+/// distance needs: the gradient of the distance by vertices[i] is weights[i] * normal.
 struct FeaturePair {
     ElementaryKind kind = ElementaryKind::vertex_face;
-    bool face_first = false;    ///< as in FeatureImpact
+    bool face_first = false; ///< as in FeatureImpact
+    /// vertex_face: the side of the triangle's plane that the vertex lies on: 1 if the triangle's
+    /// vertices run counter-clockwise as seen from there, -1 on the other side, 0 in the plane.
+    /// edge_edge: the sign of (p_a - p_b) . (e_a x e_b), where e is an edge from its lower vertex to
+    /// its higher one, and p any point on it. The sign changes where edges pass through each other.
+    /// Exact.
+    std::int8_t side = 0;
     std::uint32_t a = 0, b = 0; ///< as in FeatureImpact
+    /// vertex_face: the vertex, then the triangle's vertices. edge_edge: those of edge a, then of b.
+    std::array<std::uint32_t, 4> vertices{};
     double distance = 0;
+    double limit = 0; ///< the distance up to which this pair is listed; see NearOptions
     std::array<double, 3> barycentric{}; ///< of the closest points, as in FeatureImpact
+    /// point_a - point_b is the sum of the vertices' positions, each times its weight. The weights of
+    /// a's vertices sum to 1, those of b's to -1.
+    std::array<double, 4> weights{};
+    Vec3 point_a, point_b; ///< the closest points of both features
+    /// Unit vector from point_b to point_a. Where the features touch to rounding: perpendicular to
+    /// both of them, towards `side`; if that is 0, towards 1.
+    Vec3 normal;
 
     friend bool operator==(const FeaturePair&, const FeaturePair&) = default;
+};
+
+/// What a query of near features knows of the vertices of a surface. Each span is empty, or has one
+/// entry for each vertex.
+struct NearVertices {
+    /// Lengths, at least 0. A feature is as thick as the thickest of its vertices. Empty: 0.
+    std::span<const double> thickness{};
+    /// Bit sets: the groups of a vertex. A feature belongs to those of all its vertices. Empty: 1.
+    std::span<const std::uint32_t> groups{};
+    /// Bit sets: the groups that a vertex meets. A feature meets those that all its vertices meet.
+    /// Empty: all. As for bodies of a `World`, both features must agree.
+    std::span<const std::uint32_t> masks{};
+    /// Not 0 for vertices that have moved since the pairs were last listed. Only pairs with such a
+    /// vertex are listed. Empty for all surfaces of a query: all pairs.
+    std::span<const std::uint8_t> moved{};
+};
+
+struct NearOptions {
+    bool at_end = false;     ///< take the positions at the end of the step, not those at its start
+    NearVertices vertices{}; ///< of the surface; of two surfaces, of the first
+    NearVertices vertices_b{}; ///< of the second surface; of one surface, not to be set
+    Progress progress{};
 };
 
 /// How an edge and a face that share a point lie to each other.
@@ -257,18 +296,31 @@ bool is_free_of_self_impacts(const Deformable& surface, const ElementaryOptions&
 bool is_free_of_impacts(const Deformable& a, const Deformable& b,
                         const ElementaryOptions& options = {}, const Progress& progress = {});
 
-/// Finds every vertex and face, and every two edges, that are at most `distance` apart at the start
-/// of the step. Each pair is listed once; the list is sorted. Features that share a vertex are not
-/// a pair.
+/// Finds every vertex and face, and every two edges, that are near each other at one end of the
+/// step. Each pair is listed once, sorted by kind, face_first, a, b. Features that share a vertex
+/// are not a pair.
 ///
-/// In          distance: a length, at least 0.
-/// Accuracy    the selection of pairs is exact for the given doubles. The distances are rounded, by
-///             less than 1e-12 of the features' size, and never exceed `distance`.
-/// Errors      Error{bad_argument} if the distance is negative or not finite.
+/// In          distance: a length, at least 0. A pair is near if it is at most `distance` apart, plus
+///             the sum of the thicknesses of both features (NearVertices).
+/// Accuracy    the selection of pairs is exact for the given doubles; FeaturePair::limit is rounded
+///             before it is compared. Distances are rounded, by less than 1e-12 of the features' size,
+///             and never exceed the limit. The closest points lie on the features to rounding of
+///             their coordinates. The normal is off by at most 1e-7 from a direction in which the
+///             features are as far apart as their distance, if that is above 1e-9 of their size;
+///             in general position by some 1e-15 of the size over the distance.
+/// Errors      Error{bad_argument} if a length is negative or not finite, or if a span has another
+///             number of entries than the surface has vertices. Error{interrupted} if the stop flag
+///             is set.
+/// Cost        parallel (`set_threads`). No copy of the hierarchy is made, except where vertices are
+///             marked as moved: then, in O(n), of its nodes. The largest thickness widens all boxes.
+/// Source      representatives as [Curtis, Tamstorf, Manocha 2008]. Certified bounds of the distance
+///             dismiss eight pairs at a time.
 std::vector<FeaturePair> self_within(const Deformable& surface, double distance,
-                                     const Progress& progress = {});
+                                     const NearOptions& options = {});
+/// As `self_within`, but between two surfaces. The features of `a` come first, except where
+/// FeaturePair::face_first says otherwise.
 std::vector<FeaturePair> within(const Deformable& a, const Deformable& b, double distance,
-                                const Progress& progress = {});
+                                const NearOptions& options = {});
 
 /// Finds every edge and face of one surface that share a point while the surface is at rest: where
 /// it passes through itself. Each pair is listed once, sorted by face_first, edge, face. An edge

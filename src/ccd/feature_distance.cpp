@@ -4,6 +4,7 @@
 #include "math/dyadic.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace abut {
@@ -74,7 +75,7 @@ private:
 } // namespace
 
 FeatureDistance feature_distance(ElementaryKind kind, const std::array<Vec3, 4>& points) {
-    const ScaledPatch patch({kind, points, points});
+    const ScaledPatch patch(kind, points);
     const NearestOnPatch nearest = nearest_on_patch(patch.start);
     // Unscaling rounds where the result is denormal.
     constexpr double kLeast = std::numeric_limits<double>::denorm_min();
@@ -84,7 +85,27 @@ FeatureDistance feature_distance(ElementaryKind kind, const std::array<Vec3, 4>&
     result.lower = std::max(0.0, patch.unscaled(nearest.lower) - kLeast);
     result.upper = patch.unscaled(nearest.upper) + kLeast;
     result.barycentric = patch_barycentric(kind, nearest.x, nearest.y);
+    if (result.lower > 0)
+        result.direction = nearest.direction;
     return result;
+}
+
+Vec3 common_normal(ElementaryKind kind, const std::array<Vec3, 4>& points) {
+    FlatPatch patch = ScaledPatch(kind, points).start;
+    const double size_x = max_abs(patch.side_x), size_y = max_abs(patch.side_y);
+    // Short sides are scaled up, so that their squares do not underflow.
+    const auto scaled_up = [](const Vec3& side, double size) {
+        int exponent = 0;
+        std::frexp(size, &exponent);
+        return size > 0 ? PowerOfTwo(-exponent) * side : side;
+    };
+    patch.side_x = scaled_up(patch.side_x, size_x);
+    patch.side_y = scaled_up(patch.side_y, size_y);
+    const Vec3 n = normalized_or_zero(normal_of_patch(patch));
+    if (n != Vec3{}) // a parallelogram's first side runs against the first edge
+        return kind == ElementaryKind::edge_edge ? -n : n;
+    const Vec3 beside = perpendicular(size_x > 0 ? patch.side_x : patch.side_y);
+    return beside != Vec3{} ? beside : Vec3{1, 0, 0};
 }
 
 bool are_within(ElementaryKind kind, const std::array<Vec3, 4>& points,

@@ -115,6 +115,10 @@ std::array<Vec3, 4> FlatPatch::corners() const {
             beyond_y};
 }
 
+Vec3 normal_of_patch(const FlatPatch& patch) {
+    return across(patch.side_x, patch.side_y, cross(patch.side_x, patch.side_y));
+}
+
 NearestOnPatch nearest_on_patch(const FlatPatch& patch) {
     const Foot foot = foot_of(patch);
     const Vec3 gap = patch.corner + foot.x * patch.side_x + foot.y * patch.side_y;

@@ -43,4 +43,8 @@ struct NearestOnPatch {
 ///             at least d. The direction to the nearest point proves the whole distance.
 NearestOnPatch nearest_on_patch(const FlatPatch& patch);
 
+/// A vector perpendicular to both sides of a patch, however small the angle between them: that of
+/// their cross product, without its rounding error along the sides. Zero if the cross product is.
+Vec3 normal_of_patch(const FlatPatch& patch);
+
 } // namespace abut

@@ -43,6 +43,22 @@ ScaledPatch::ScaledPatch(const ElementaryPair& pair) {
     end = {pair.kind, scale * patch.corner.end, scale * patch.side_x.end, scale * patch.side_y.end};
 }
 
+ScaledPatch::ScaledPatch(ElementaryKind kind, const std::array<Vec3, 4>& points) {
+    const PatchLayout layout = patch_layout(kind);
+    const auto vector = [&](const VertexDifference& d) { return points[d.to] - points[d.from]; };
+    const Vec3 corner = vector(layout.corner), side_x = vector(layout.side_x),
+               side_y = vector(layout.side_y);
+    const double size = max_abs(corner) + max_abs(side_x) + max_abs(side_y);
+    using Limits = std::numeric_limits<double>;
+    if (!(size >= Limits::min() && size <= Limits::max())) {
+        *this = ScaledPatch(ElementaryPair{kind, points, points});
+        return;
+    }
+    std::frexp(size, &exponent);
+    const PowerOfTwo scale(-exponent);
+    start = end = {kind, scale * corner, scale * side_x, scale * side_y};
+}
+
 FlatPatch ScaledPatch::at(double t) const {
     const auto blend = [t](const Vec3& a, const Vec3& b) { return (1 - t) * a + t * b; };
     return {start.kind, blend(start.corner, end.corner), blend(start.side_x, end.side_x),

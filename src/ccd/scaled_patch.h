@@ -23,6 +23,8 @@ struct ScaledPatch {
     [[nodiscard]] double unscaled(double length) const { return PowerOfTwo(exponent) * length; }
 
     explicit ScaledPatch(const ElementaryPair& pair);
+    /// The patch of a pair at rest: that of a pair with these points at both ends.
+    ScaledPatch(ElementaryKind kind, const std::array<Vec3, 4>& points);
 
     /// The patch at time t.
     ///

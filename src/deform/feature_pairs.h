@@ -31,6 +31,21 @@ std::uint64_t list_key(const Found& found) {
            std::uint64_t{found.a} << 30 | found.b;
 }
 
+/// What a list_key stands for.
+struct KeyedPair {
+    ElementaryKind kind;
+    bool face_first;
+    FeatureIds ids;
+
+    explicit KeyedPair(std::uint64_t key)
+        : kind(static_cast<ElementaryKind>(key >> 61)),
+          face_first((key >> 60 & 1) != 0), ids{static_cast<std::uint32_t>(key >> 30 & kFeature),
+                                                static_cast<std::uint32_t>(key & kFeature)} {}
+
+private:
+    static constexpr std::uint64_t kFeature = (std::uint64_t{1} << 30) - 1;
+};
+
 using PairVertices = std::array<const MovingVertex*, 4>; ///< in the order of ElementaryPair
 
 inline ElementaryPair pair_of(ElementaryKind kind, const PairVertices& vertices) {
@@ -56,6 +71,16 @@ public:
             const IndexTriangle& f = b_.triangles[ids.b];
             return {&a_.vertices[ids.a], &b_.vertices[f[0]], &b_.vertices[f[1]],
                     &b_.vertices[f[2]]};
+        }
+    }
+    /// The vertices' numbers, in the order of ElementaryPair.
+    [[nodiscard]] std::array<std::uint32_t, 4> indices(FeatureIds ids) const {
+        if constexpr (kind == ElementaryKind::edge_edge) {
+            const auto &e = a_.features.edges[ids.a], &f = b_.features.edges[ids.b];
+            return {e[0], e[1], f[0], f[1]};
+        } else {
+            const IndexTriangle& f = b_.triangles[ids.b];
+            return {ids.a, f[0], f[1], f[2]};
         }
     }
     [[nodiscard]] ElementaryPair pair(FeatureIds ids) const { return pair_of(kind, vertices(ids)); }

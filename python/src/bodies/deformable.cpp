@@ -84,14 +84,14 @@ py::object run_free(const Arguments& arguments) {
 py::object run_self_within(const Arguments& arguments) {
     const double distance = to_double(arguments[1], "distance");
     return records(read_one(arguments, 2, [&](const Deformable& surface, const Progress& progress) {
-        return self_within(surface, distance, progress);
+        return self_within(surface, distance, {.progress = progress});
     }));
 }
 py::object run_surfaces_within(const Arguments& arguments) {
     const double distance = to_double(arguments[2], "distance");
     return records(read_two(
         arguments, 3, [&](const Deformable& a, const Deformable& b, const Progress& progress) {
-            return within(a, b, distance, progress);
+            return within(a, b, distance, {.progress = progress});
         }));
 }
 

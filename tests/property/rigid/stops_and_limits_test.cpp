@@ -139,8 +139,8 @@ TEST(Stops, AFlagThatIsSetEndsEveryQuery) {
         {"first impact", [&] { time_of_impact(cloth, other, {}, progress); }},
         {"free of self impacts", [&] { is_free_of_self_impacts(cloth, {}, progress); }},
         {"free of impacts", [&] { is_free_of_impacts(cloth, other, {}, progress); }},
-        {"self pairs", [&] { self_within(cloth, 1, progress); }},
-        {"pairs", [&] { within(cloth, other, 1, progress); }},
+        {"self pairs", [&] { self_within(cloth, 1, {.progress = progress}); }},
+        {"pairs", [&] { within(cloth, other, 1, {.progress = progress}); }},
         {"elementary impacts", [&] { elementary_impacts(pairs, {}, progress); }},
         {"bodies that meet", [&] { world.collide(progress); }},
         {"penetration of bodies", [&] { world.penetration(progress); }},
@@ -188,8 +188,8 @@ TEST(Stops, AFlagSetByAnotherThreadEndsLongQueries) {
         {"penetration", [&] { penetration(a, {}, b, {}, {.progress = progress}); }},
         {"self impacts", [&] { self_impacts(cloth, {}, progress); }},
         {"impacts", [&] { impacts(cloth, other, {}, progress); }},
-        {"self pairs", [&] { self_within(cloth, 1, progress); }},
-        {"pairs", [&] { within(cloth, other, 1, progress); }},
+        {"self pairs", [&] { self_within(cloth, 1, {.progress = progress}); }},
+        {"pairs", [&] { within(cloth, other, 1, {.progress = progress}); }},
         {"penetration of bodies", [&] { world.penetration(progress); }},
     };
     for (const auto& [name, query] : queries) {

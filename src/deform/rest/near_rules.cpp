@@ -1,0 +1,31 @@
+#include "deform/rest/near_rules.h"
+
+#include <abut/error.h>
+
+#include <cmath>
+#include <string>
+
+namespace abut {
+
+double checked_thickness(const NearVertices& vertices, const DeformableData& surface) {
+    const auto check = [&](const char* name, std::size_t size) {
+        if (size != 0 && size != surface.vertices.size())
+            throw Error(ErrorCode::bad_argument,
+                        std::string(name) + ": " + std::to_string(size) + " entries for " +
+                            std::to_string(surface.vertices.size()) + " vertices");
+    };
+    check("thickness", vertices.thickness.size());
+    check("groups", vertices.groups.size());
+    check("masks", vertices.masks.size());
+    check("moved", vertices.moved.size());
+    double most = 0;
+    for (const double each : vertices.thickness) {
+        if (!(each >= 0 && std::isfinite(each)))
+            throw Error(ErrorCode::bad_argument,
+                        "a thickness must be a finite number of at least 0");
+        most = std::max(most, each);
+    }
+    return most;
+}
+
+} // namespace abut

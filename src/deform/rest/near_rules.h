@@ -1,0 +1,84 @@
+#pragma once
+
+#include <abut/deformable.h>
+
+#include "deform/deformable_data.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace abut {
+
+/// Decides which pairs of features a query lists, and up to which distance. Those of the first
+/// feature's surface come first in all arguments.
+class NearRules {
+public:
+    NearRules(const NearVertices& first, const NearVertices& second, double distance)
+        : first_(first), second_(second), distance_(distance),
+          have_groups_(!(first.groups.empty() && first.masks.empty() && second.groups.empty() &&
+                         second.masks.empty())),
+          have_moved_(!(first.moved.empty() && second.moved.empty())) {}
+
+    /// Whether groups, masks and marks of moved vertices admit a pair. In: its vertices in the order
+    /// of ElementaryPair, and how many of them are the first feature's.
+    [[nodiscard]] bool admit(const std::array<std::uint32_t, 4>& vertices,
+                             std::size_t split) const {
+        const std::span<const std::uint32_t> all(vertices);
+        const auto a = all.first(split), b = all.subspan(split);
+        return (!have_groups_ || ((groups(first_, a) & masks(second_, b)) != 0 &&
+                                  (groups(second_, b) & masks(first_, a)) != 0)) &&
+               (!have_moved_ || has_moved(first_, a) || has_moved(second_, b));
+    }
+    [[nodiscard]] bool admit_all() const { return !have_groups_ && !have_moved_; }
+    [[nodiscard]] double limit(const std::array<std::uint32_t, 4>& vertices,
+                               std::size_t split) const {
+        const std::span<const std::uint32_t> all(vertices);
+        return distance_ +
+               (thickness(first_, all.first(split)) + thickness(second_, all.subspan(split)));
+    }
+
+private:
+    using Feature = std::span<const std::uint32_t>;
+
+    static double thickness(const NearVertices& of, Feature feature) {
+        double most = 0;
+        if (!of.thickness.empty())
+            for (const std::uint32_t v : feature)
+                most = std::max(most, of.thickness[v]);
+        return most;
+    }
+    static std::uint32_t groups(const NearVertices& of, Feature feature) {
+        if (of.groups.empty())
+            return 1;
+        std::uint32_t all = 0;
+        for (const std::uint32_t v : feature)
+            all |= of.groups[v];
+        return all;
+    }
+    static std::uint32_t masks(const NearVertices& of, Feature feature) {
+        std::uint32_t all = ~0U;
+        if (!of.masks.empty())
+            for (const std::uint32_t v : feature)
+                all &= of.masks[v];
+        return all;
+    }
+    static bool has_moved(const NearVertices& of, Feature feature) {
+        return !of.moved.empty() && std::any_of(feature.begin(), feature.end(),
+                                                [&](std::uint32_t v) { return of.moved[v] != 0; });
+    }
+
+    NearVertices first_, second_;
+    double distance_;
+    bool have_groups_, have_moved_;
+};
+
+/// The largest thickness; 0 if there is none.
+///
+/// Errors      Error{bad_argument} if a span has another number of entries than the surface has
+///             vertices, or if a thickness is negative or not finite.
+double checked_thickness(const NearVertices& vertices, const DeformableData& surface);
+
+} // namespace abut
