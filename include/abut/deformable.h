@@ -101,7 +101,8 @@ struct Impacts {
 };
 
 /// Two features that are near each other at one end of the step, with all that a constraint on their
-/// distance needs: the gradient of the distance by vertices[i] is weights[i] * normal.
+/// distance needs. The gradient of the distance by the position of vertices[i] is
+/// weights[i] * normal.
 struct FeaturePair {
     ElementaryKind kind = ElementaryKind::vertex_face;
     bool face_first = false; ///< as in FeatureImpact
@@ -210,8 +211,16 @@ public:
     ///             changed then.
     /// Cost        O(n), parallel; O(n log n) where the hierarchy is rebuilt.
     void set_motion(std::span<const Vec3> start, std::span<const Vec3> end);
+    /// As above, from the arrays of another program: x, y, z of each vertex. Floats are converted
+    /// exactly to doubles. The arrays are read once, without another copy of them.
+    ///
+    /// Errors      as above; Error{bad_argument} unless there are three numbers for each vertex.
+    void set_motion(std::span<const double> start, std::span<const double> end);
+    void set_motion(std::span<const float> start, std::span<const float> end);
     /// Starts the next step: the old end becomes the start. Errors and cost as `set_motion`.
     void advance(std::span<const Vec3> end);
+    void advance(std::span<const double> end);
+    void advance(std::span<const float> end);
     /// As above, but frees the memory of `end` before it refits the hierarchy.
     void advance(std::vector<Vec3>&& end);
 
@@ -332,8 +341,7 @@ std::vector<FeaturePair> within(const Deformable& a, const Deformable& b, double
 /// Accuracy    which pairs, and how they meet, is exact for the given doubles. The point lies on
 ///             both to rounding, and within 2^-36 of the edge's length of the true one.
 /// Errors      Error{interrupted} if the stop flag is set.
-/// Cost        parallel (`set_threads`). The surface's hierarchy is used if it is at rest;
-///             otherwise a copy is fitted to the positions, in O(n).
+/// Cost        parallel (`set_threads`). O(n) for a copy of the positions, then the search.
 /// Source      representatives as [Curtis, Tamstorf, Manocha 2008]: an edge is tested in the
 ///             triangle that represents it, so that no pair is tested twice.
 std::vector<EdgeFaceIntersection> self_intersections(const Deformable& surface,

@@ -95,6 +95,56 @@ void start_at_end(SweptTree& swept) {
     });
 }
 
+/// Positions as three numbers each.
+template <typename Number>
+class Triples {
+public:
+    explicit Triples(std::span<const Number> numbers) : numbers_(numbers) {}
+    [[nodiscard]] Vec3 operator[](std::size_t i) const {
+        return {numbers_[3 * i], numbers_[3 * i + 1], numbers_[3 * i + 2]};
+    }
+    [[nodiscard]] std::span<const Number> numbers() const { return numbers_; }
+
+private:
+    std::span<const Number> numbers_;
+};
+
+/// Errors      as Deformable::set_motion.
+void require_fit(std::span<const Vec3> positions, std::size_t vertices) {
+    if (positions.size() != vertices)
+        throw Error(ErrorCode::bad_argument, std::to_string(positions.size()) + " positions for " +
+                                                 std::to_string(vertices) + " vertices");
+    require_valid_positions(positions);
+}
+template <typename Number>
+void require_fit(const Triples<Number>& positions, std::size_t vertices) {
+    const std::size_t size = positions.numbers().size();
+    if (size != 3 * vertices)
+        throw Error(ErrorCode::bad_argument, std::to_string(size) + " numbers for " +
+                                                 std::to_string(vertices) +
+                                                 " vertices: not three a vertex");
+    for (std::size_t i = 0; i < vertices; ++i)
+        require_valid_position(positions[i], i);
+}
+
+template <typename Positions>
+void set_both_ends(DeformableData& d, const Positions& start, const Positions& end) {
+    require_fit(start, d.vertices.size());
+    require_fit(end, d.vertices.size());
+    parallel_for(d.vertices.size(), kGrain, [&](std::size_t i) {
+        d.vertices[i] = {start[i], end[i]};
+    });
+    d.refit(FirstBoxes::unknown);
+}
+/// Makes the ends of the last step the starts, without the boxes.
+template <typename Positions>
+void move_on(DeformableData& d, const Positions& end) {
+    require_fit(end, d.vertices.size());
+    parallel_for(d.vertices.size(), kGrain, [&](std::size_t i) {
+        d.vertices[i] = {d.vertices[i].end, end[i]};
+    });
+}
+
 } // namespace
 
 DeformableData::DeformableData() = default;
@@ -147,16 +197,6 @@ void DeformableData::fit_boxes(FirstBoxes first) {
         feature_boxes =
             std::make_unique<FeatureBoxes>(moving_boxes(vertices), features.edges, triangles);
     flat_regions.fit(swept.leaves.faces, triangles, vertices);
-}
-
-void DeformableData::move_on(std::span<const Vec3> end) {
-    if (end.size() != vertices.size())
-        throw Error(ErrorCode::bad_argument, std::to_string(end.size()) + " positions for " +
-                                                 std::to_string(vertices.size()) + " vertices");
-    require_valid_positions(end);
-    parallel_for(vertices.size(), kGrain, [&](std::size_t i) {
-        vertices[i] = {vertices[i].end, end[i]};
-    });
 }
 
 void DeformableData::refit(FirstBoxes first) {
@@ -250,26 +290,29 @@ void Deformable::set_mesh(Mesh mesh) {
 }
 
 void Deformable::set_motion(std::span<const Vec3> start, std::span<const Vec3> end) {
-    DeformableData& d = *data_;
-    if (start.size() != d.vertices.size() || end.size() != d.vertices.size())
-        throw Error(ErrorCode::bad_argument, std::to_string(start.size()) + " and " +
-                                                 std::to_string(end.size()) + " positions for " +
-                                                 std::to_string(d.vertices.size()) + " vertices");
-    require_valid_positions(start);
-    require_valid_positions(end);
-    parallel_for(d.vertices.size(), kGrain, [&](std::size_t i) {
-        d.vertices[i] = {start[i], end[i]};
-    });
-    d.refit(FirstBoxes::unknown);
+    set_both_ends(*data_, start, end);
+}
+void Deformable::set_motion(std::span<const double> start, std::span<const double> end) {
+    set_both_ends(*data_, Triples(start), Triples(end));
+}
+void Deformable::set_motion(std::span<const float> start, std::span<const float> end) {
+    set_both_ends(*data_, Triples(start), Triples(end));
 }
 
 void Deformable::advance(std::span<const Vec3> end) {
-    data_->move_on(end);
+    move_on(*data_, end);
     data_->refit(FirstBoxes::last_ends);
 }
-
+void Deformable::advance(std::span<const double> end) {
+    move_on(*data_, Triples(end));
+    data_->refit(FirstBoxes::last_ends);
+}
+void Deformable::advance(std::span<const float> end) {
+    move_on(*data_, Triples(end));
+    data_->refit(FirstBoxes::last_ends);
+}
 void Deformable::advance(std::vector<Vec3>&& end) {
-    data_->move_on(end);
+    move_on(*data_, std::span<const Vec3>(end));
     std::vector<Vec3>().swap(end);
     data_->refit(FirstBoxes::last_ends);
 }

@@ -67,8 +67,6 @@ public:
     void find_edges_of_triangles();
     /// Builds the hierarchy from scratch.
     void build();
-    /// Sets the next step's motion, but not its boxes. Errors as Deformable::advance.
-    void move_on(std::span<const Vec3> end);
     /// Fits all boxes to the motion. Rebuilds the hierarchy if its boxes have become too loose.
     void refit(FirstBoxes first);
 

@@ -106,16 +106,18 @@ std::vector<std::uint32_t> component_representatives(const Mesh& mesh, const Top
     return result;
 }
 
+void require_valid_position(const Vec3& p, std::size_t vertex) {
+    if (!is_finite(p))
+        throw Error(ErrorCode::bad_mesh,
+                    "vertex " + std::to_string(vertex) + " has a coordinate that is not finite");
+    if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > kLargestCoordinate)
+        throw Error(ErrorCode::bad_mesh,
+                    "vertex " + std::to_string(vertex) + " has a coordinate beyond 1e18");
+}
+
 void require_valid_positions(std::span<const Vec3> positions) {
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        const Vec3& p = positions[i];
-        if (!is_finite(p))
-            throw Error(ErrorCode::bad_mesh,
-                        "vertex " + std::to_string(i) + " has a coordinate that is not finite");
-        if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > kLargestCoordinate)
-            throw Error(ErrorCode::bad_mesh,
-                        "vertex " + std::to_string(i) + " has a coordinate beyond 1e18");
-    }
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        require_valid_position(positions[i], i);
 }
 
 void require_valid(const Mesh& mesh) {

@@ -3,6 +3,7 @@
 #include <abut/mesh.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -47,8 +48,11 @@ std::vector<std::uint32_t> component_representatives(const Mesh& mesh, const Top
 /// Largest coordinate for which squares of box sizes stay finite in single precision.
 inline constexpr double kLargestCoordinate = 1e18;
 
-/// Checks vertex positions.
-/// Errors      Error{bad_mesh} if a coordinate is not finite or beyond kLargestCoordinate.
+/// Checks the position of a vertex.
+/// Errors      Error{bad_mesh}, which names the vertex, if a coordinate is not finite or beyond
+///             kLargestCoordinate.
+void require_valid_position(const Vec3& position, std::size_t vertex);
+/// Checks the positions of all vertices. Errors as require_valid_position.
 void require_valid_positions(std::span<const Vec3> positions);
 
 /// Checks a mesh.

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 #include <limits>
+#include <span>
+#include <vector>
 
 namespace abut::test {
 namespace {
@@ -117,7 +119,7 @@ TEST(Deformable, NothingMeetsNothing) {
         for (const auto culling : {Culling::tree, Culling::grid, Culling::sweep}) {
             const DeformableOptions options{scheme, Assignment::greedy, culling};
             Deformable empty(Mesh{}, options);
-            empty.set_motion({}, {});
+            empty.set_motion(std::vector<Vec3>(), std::vector<Vec3>());
             EXPECT_TRUE(self_impacts(empty).list.empty());
             EXPECT_EQ(self_time_of_impact(empty), std::nullopt);
             const Deformable other = rising_tip().deformable(options);
@@ -201,6 +203,50 @@ TEST(Deformable, EverythingIsWithinALargeThickness) {
             EXPECT_EQ(self_within(surface, large).size(), 6U + 9U) << large;
         }
     }
+}
+
+/// Arrays of doubles and of floats are the same step as vectors, if the values are.
+TEST(Deformable, TakesArraysOfNumbers) {
+    const MovingMesh moving = rising_tip();
+    const std::size_t n = moving.mesh.positions.size();
+    std::vector<Vec3> ends[2];
+    std::vector<double> doubles[2];
+    std::vector<float> floats[2];
+    for (std::size_t i = 0; i < n; ++i)
+        for (int end = 0; end < 2; ++end) {
+            const Vec3 p = end == 0 ? moving.mesh.positions[i] : moving.end[i];
+            for (const double x : {p.x, p.y, p.z}) {
+                floats[end].push_back(static_cast<float>(x));
+                doubles[end].push_back(double{floats[end].back()});
+            }
+            const double* last = &doubles[end][3 * i];
+            ends[end].push_back({last[0], last[1], last[2]});
+        }
+    Deformable expected(moving.mesh), of_doubles(moving.mesh), of_floats(moving.mesh);
+    expected.set_motion(ends[0], ends[1]);
+    of_doubles.set_motion(doubles[0], doubles[1]);
+    of_floats.set_motion(floats[0], floats[1]);
+    const auto impacts = self_impacts(expected).list;
+    ASSERT_FALSE(impacts.empty());
+    EXPECT_EQ(self_impacts(of_doubles).list, impacts);
+    EXPECT_EQ(self_impacts(of_floats).list, impacts);
+    expected.advance(std::span<const Vec3>(ends[0]));
+    of_doubles.advance(doubles[0]);
+    of_floats.advance(floats[0]);
+    const auto back = self_impacts(expected).list;
+    ASSERT_FALSE(back.empty());
+    EXPECT_EQ(self_impacts(of_doubles).list, back);
+    EXPECT_EQ(self_impacts(of_floats).list, back);
+
+    std::vector<float> short_floats(3 * n - 1), large(3 * n), none(3 * n);
+    large[4] = 1e19F;
+    none[7] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(code_of([&] { of_floats.advance(short_floats); }), ErrorCode::bad_argument);
+    EXPECT_EQ(code_of([&] { of_floats.set_motion(short_floats, floats[1]); }),
+              ErrorCode::bad_argument);
+    EXPECT_EQ(code_of([&] { of_floats.advance(large); }), ErrorCode::bad_mesh);
+    EXPECT_EQ(code_of([&] { of_floats.set_motion(floats[0], none); }), ErrorCode::bad_mesh);
+    EXPECT_EQ(self_impacts(of_floats).list, back);
 }
 
 } // namespace
