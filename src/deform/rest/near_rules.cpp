@@ -7,6 +7,14 @@
 
 namespace abut {
 
+void require_valid_near(double distance, bool is_one_surface, const NearVertices& vertices_b) {
+    if (!(distance >= 0 && std::isfinite(distance)))
+        throw Error(ErrorCode::bad_argument, "the distance must be a finite number of at least 0");
+    if (is_one_surface && !(vertices_b.thickness.empty() && vertices_b.groups.empty() &&
+                            vertices_b.masks.empty() && vertices_b.moved.empty()))
+        throw Error(ErrorCode::bad_argument, "one surface has no vertices_b");
+}
+
 double checked_thickness(const NearVertices& vertices, const DeformableData& surface) {
     const auto check = [&](const char* name, std::size_t size) {
         if (size != 0 && size != surface.vertices.size())

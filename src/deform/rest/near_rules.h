@@ -22,27 +22,20 @@ public:
                          second.masks.empty())),
           have_moved_(!(first.moved.empty() && second.moved.empty())) {}
 
-    /// Whether groups, masks and marks of moved vertices admit a pair. In: its vertices in the order
-    /// of ElementaryPair, and how many of them are the first feature's.
-    [[nodiscard]] bool admit(const std::array<std::uint32_t, 4>& vertices,
-                             std::size_t split) const {
-        const std::span<const std::uint32_t> all(vertices);
-        const auto a = all.first(split), b = all.subspan(split);
+    using Feature = std::span<const std::uint32_t>; ///< the numbers of its vertices
+
+    /// Whether groups, masks and marks of moved vertices admit a pair.
+    [[nodiscard]] bool admit(Feature a, Feature b) const {
         return (!have_groups_ || ((groups(first_, a) & masks(second_, b)) != 0 &&
                                   (groups(second_, b) & masks(first_, a)) != 0)) &&
                (!have_moved_ || has_moved(first_, a) || has_moved(second_, b));
     }
     [[nodiscard]] bool admit_all() const { return !have_groups_ && !have_moved_; }
-    [[nodiscard]] double limit(const std::array<std::uint32_t, 4>& vertices,
-                               std::size_t split) const {
-        const std::span<const std::uint32_t> all(vertices);
-        return distance_ +
-               (thickness(first_, all.first(split)) + thickness(second_, all.subspan(split)));
+    [[nodiscard]] double limit(Feature a, Feature b) const {
+        return distance_ + (thickness(first_, a) + thickness(second_, b));
     }
 
 private:
-    using Feature = std::span<const std::uint32_t>;
-
     static double thickness(const NearVertices& of, Feature feature) {
         double most = 0;
         if (!of.thickness.empty())
@@ -74,6 +67,10 @@ private:
     double distance_;
     bool have_groups_, have_moved_;
 };
+
+/// Errors      Error{bad_argument} if the distance is negative or not finite, or if data of a second
+///             surface are given where there is one.
+void require_valid_near(double distance, bool is_one_surface, const NearVertices& vertices_b);
 
 /// The largest thickness; 0 if there is none.
 ///

@@ -1,5 +1,4 @@
 #include <abut/deformable.h>
-#include <abut/error.h>
 
 #include "ccd/feature_distance.h"
 #include "ccd/near_filter.h"
@@ -13,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -49,10 +47,14 @@ public:
         return points;
     }
     [[nodiscard]] bool admit(FeatureIds ids) const {
-        return rules_.admit_all() || rules_.admit(geometry_.indices(ids), kSplit);
+        if (rules_.admit_all())
+            return true;
+        const auto vertices = geometry_.indices(ids);
+        return rules_.admit(first(vertices), second(vertices));
     }
     [[nodiscard]] double limit(FeatureIds ids) const {
-        return rules_.limit(geometry_.indices(ids), kSplit);
+        const auto vertices = geometry_.indices(ids);
+        return rules_.limit(first(vertices), second(vertices));
     }
     /// In: a pair that is near.
     [[nodiscard]] FeaturePair measured(FeatureIds ids) const {
@@ -77,6 +79,13 @@ public:
 private:
     /// How many of a pair's vertices belong to the first feature.
     static constexpr std::size_t kSplit = kind == ElementaryKind::edge_edge ? 2 : 1;
+    using Vertices = std::array<std::uint32_t, 4>;
+    static NearRules::Feature first(const Vertices& vertices) {
+        return NearRules::Feature(vertices).first(kSplit);
+    }
+    static NearRules::Feature second(const Vertices& vertices) {
+        return NearRules::Feature(vertices).subspan(kSplit);
+    }
 
     PairGeometry<kind> geometry_;
     NearRules rules_;
@@ -171,19 +180,10 @@ std::vector<FeaturePair> measured(const NearQuery& query, std::span<const std::u
     return pairs;
 }
 
-/// Errors      as self_within.
-void require_valid(double distance, bool is_self, const NearVertices& of_b) {
-    if (!(distance >= 0 && std::isfinite(distance)))
-        throw Error(ErrorCode::bad_argument, "the distance must be a finite number of at least 0");
-    if (is_self && !(of_b.thickness.empty() && of_b.groups.empty() && of_b.masks.empty() &&
-                     of_b.moved.empty()))
-        throw Error(ErrorCode::bad_argument, "one surface has no vertices_b");
-}
-
 std::vector<FeaturePair> find_near(const DeformableData& a, const DeformableData& b,
                                    double distance, const NearOptions& options) {
     const bool is_self = &a == &b;
-    require_valid(distance, is_self, options.vertices_b);
+    require_valid_near(distance, is_self, options.vertices_b);
     const NearQuery query{a,
                           b,
                           distance,

@@ -54,7 +54,7 @@ private:
     /// One of the traversals that make up the search.
     enum class Pass : std::uint8_t { all, moved_of_a, moved_of_b };
     struct Start {
-        Pass pass;
+        Pass pass = Pass::all;
         OverlapTraversal::Pair pair;
     };
 

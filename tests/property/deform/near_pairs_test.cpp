@@ -52,9 +52,6 @@ double size_of(const std::array<Vec3, 4>& points) {
     return size;
 }
 
-PrecisePoint scaled(const Precise& s, const PrecisePoint& p) {
-    return {s * p[0], s * p[1], s * p[2]};
-}
 PrecisePoint cross(const PrecisePoint& a, const PrecisePoint& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }

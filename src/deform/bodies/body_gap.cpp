@@ -1,0 +1,232 @@
+#include "deform/bodies/body_gap.h"
+
+#include <abut/shape_queries.h>
+
+#include "convex/support/support_gap.h"
+#include "deform/bodies/deepest_place.h"
+#include "geometry/triangle_triangle_distance.h"
+#include "rigid/model/model_data.h"
+#include "world/narrow_phase/solid_gap.h"
+#include "world/queries/rigid_shape_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <variant>
+
+namespace abut {
+
+namespace {
+
+/// Points that are nearer than this share of their coordinates differ by rounding alone.
+constexpr double kTellsNoDirection = 0x1p-44;
+
+/// A convex body.
+class SolidGaps final : public BodyGaps {
+public:
+    SolidGaps(const Box3& bounds, const SupportShape& solid) : BodyGaps(bounds), solid_(solid) {}
+
+    [[nodiscard]] std::optional<PlaceNearBody> of_point(const Vec3& point,
+                                                        double limit) const override {
+        SupportShape shape;
+        shape.centre = point;
+        return place(shape, limit);
+    }
+    [[nodiscard]] std::optional<PlaceNearBody> of_triangle(const Triangle& triangle,
+                                                           double limit) const override {
+        const auto shortest = place(support_of(triangle), limit);
+        if (!shortest || shortest->distance >= 0)
+            return shortest;
+        // A motion that parts the whole triangle from the body is no shorter than one that brings any
+        // point of it out. Both are equal unless the triangle passes through the body.
+        constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
+        double size = 0;
+        for (const Vec3& corner : triangle)
+            size = std::max(size, max_abs(corner - shortest->on_body));
+        const double tolerance = 0x1p-44 * size;
+        auto deepest = of_point(shortest->point, kAnyDistance);
+        if (deepest->distance > shortest->distance + tolerance) {
+            const auto sample = [&](const Vec3& point) {
+                const auto at = of_point(point, kAnyDistance);
+                return ConvexSample{at->distance, at->normal};
+            };
+            deepest =
+                of_point(deepest_place(triangle, shortest->point, sample, tolerance), kAnyDistance);
+        }
+        return deepest->distance <= limit ? deepest : std::nullopt;
+    }
+
+private:
+    [[nodiscard]] std::optional<PlaceNearBody> place(const SupportShape& shape,
+                                                     double limit) const {
+        Vec3 direction;
+        const SupportGap gap = support_gap(shape, solid_, limit, SupportDepths::yes, direction);
+        if (gap.distance > limit)
+            return std::nullopt;
+        return PlaceNearBody{gap.distance, gap.point_a, gap.point_b, -gap.normal, 0};
+    }
+
+    SupportShape solid_;
+};
+
+/// A ball or a capsule, in closed form: all points near a point or a segment, its core.
+class RoundGaps final : public BodyGaps {
+public:
+    /// In: solid, for which has_line_core is true.
+    RoundGaps(const Box3& bounds, const SupportShape& solid)
+        : BodyGaps(bounds), radius_(solid.radius) {
+        const std::size_t longest = static_cast<std::size_t>(
+            std::max_element(solid.half.begin(), solid.half.end()) - solid.half.begin());
+        const Vec3 half = solid.half[longest] * solid.axis[longest];
+        a_ = solid.centre - half, b_ = solid.centre + half;
+        axis_ = normalized_or_zero(half);
+    }
+    static bool has_line_core(const SupportShape& solid) {
+        return solid.kind == CoreKind::box &&
+               std::count(solid.half.begin(), solid.half.end(), 0.0) >= 2;
+    }
+
+    [[nodiscard]] std::optional<PlaceNearBody> of_point(const Vec3& point,
+                                                        double limit) const override {
+        const Vec3 side = b_ - a_;
+        const double square = dot(side, side);
+        const double along = square > 0 ? std::clamp(dot(point - a_, side) / square, 0.0, 1.0) : 0;
+        return place(point, a_ + along * side, perpendicular(axis_), limit);
+    }
+    [[nodiscard]] std::optional<PlaceNearBody> of_triangle(const Triangle& triangle,
+                                                           double limit) const override {
+        const ClosestPoints closest = triangle_triangle_distance(triangle, {a_, b_, b_});
+        const Vec3 across = cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
+        return place(closest.a, closest.b, across, limit);
+    }
+
+private:
+    /// In: core, the core's point that is nearest to the point; across, the normal where both are the
+    /// same to rounding, of any length. It is made perpendicular to the axis.
+    [[nodiscard]] std::optional<PlaceNearBody> place(const Vec3& point, const Vec3& core,
+                                                     const Vec3& across, double limit) const {
+        Vec3 normal = point - core;
+        const double from_core = length(normal);
+        if (from_core - radius_ > limit)
+            return std::nullopt;
+        if (from_core > kTellsNoDirection * (max_abs(point) + max_abs(core))) {
+            normal = (1 / from_core) * normal;
+        } else {
+            constexpr double kParallel = 0x1p-26;
+            normal = across - dot(across, axis_) * axis_;
+            if (length(normal) > kParallel * length(across))
+                normal = normalized_or_zero(normal);
+            else
+                normal = axis_ == Vec3{} ? Vec3{0, 0, 1} : perpendicular(axis_);
+        }
+        return PlaceNearBody{from_core - radius_, point, core + radius_ * normal, normal, 0};
+    }
+
+    Vec3 a_, b_, axis_; ///< the core's ends; the axis is zero for a ball
+    double radius_;
+};
+
+/// A half-space. Its distance is linear, so a triangle's vertices tell all.
+class HalfSpaceGaps final : public BodyGaps {
+public:
+    HalfSpaceGaps(const Box3& bounds, const PlaneShape& plane) : BodyGaps(bounds), plane_(plane) {}
+
+    [[nodiscard]] std::optional<PlaceNearBody> of_point(const Vec3& point,
+                                                        double limit) const override {
+        const double distance = dot(plane_.normal, point - plane_.point);
+        if (distance > limit)
+            return std::nullopt;
+        return PlaceNearBody{distance, point, point - distance * plane_.normal, plane_.normal, 0};
+    }
+    [[nodiscard]] std::optional<PlaceNearBody> of_triangle(const Triangle& /*triangle*/,
+                                                           double /*limit*/) const override {
+        return std::nullopt;
+    }
+
+private:
+    PlaneShape plane_;
+};
+
+class ModelGaps final : public BodyGaps {
+public:
+    ModelGaps(const Box3& bounds, const Model& model, const Transform& world_from_model)
+        : BodyGaps(bounds), model_(model), world_(world_from_model) {
+        const Solid& solid = model.data().solid();
+        is_solid_ = solid.closed && solid.open.empty();
+    }
+
+    [[nodiscard]] std::optional<PlaceNearBody> of_point(const Vec3& point,
+                                                        double limit) const override {
+        // The bound must be above the limit, since what is as far as the bound is not found. Its
+        // square must not be 0.
+        const double bound = limit + 0x1p-40 * (limit + max_abs(point)) + 0x1p-500;
+        NearestOptions options{.upper_bound = bound, .signed_distance = is_solid_};
+        Nearest found = nearest(model_, world_, point, options);
+        if (found.status == Status::bound_only && found.distance < 0) {
+            options.upper_bound = std::numeric_limits<double>::infinity();
+            found = nearest(model_, world_, point, options);
+        }
+        if (found.status == Status::bound_only || found.distance > limit)
+            return std::nullopt;
+        return place(found.distance, point, found.point, found.triangle);
+    }
+    [[nodiscard]] std::optional<PlaceNearBody> of_triangle(const Triangle& triangle,
+                                                           double limit) const override {
+        Box3 box;
+        for (const Vec3& corner : triangle)
+            extend(box, corner);
+        std::optional<PlaceNearBody> best;
+        double least = limit * limit;
+        for (const std::uint32_t other : overlapping_triangles(model_, world_, grown(box, limit))) {
+            const ClosestPoints closest =
+                triangle_triangle_distance(triangle, model_.data().world_triangle(other, world_));
+            if (closest.distance_sq > least || (best && closest.distance_sq == least))
+                continue;
+            least = closest.distance_sq;
+            best = place(std::sqrt(least), closest.a, closest.b, other);
+        }
+        // In a solid, the deepest vertex counts.
+        if (best && best->distance > 0 && is_solid_ &&
+            contains(model_, world_, best->point).side == Side::inside)
+            return std::nullopt;
+        return best;
+    }
+
+private:
+    /// In: a signed distance. Where the points coincide to rounding, the triangle's normal is taken.
+    [[nodiscard]] PlaceNearBody place(double distance, const Vec3& point, const Vec3& on_body,
+                                      std::uint32_t triangle) const {
+        Vec3 normal = point - on_body;
+        if (length(normal) <= kTellsNoDirection * (max_abs(point) + max_abs(on_body))) {
+            const Triangle t = model_.data().world_triangle(triangle, world_);
+            const Vec3 across = normalized_or_zero(cross(t[1] - t[0], t[2] - t[0]));
+            normal = across != Vec3{} ? across : perpendicular(t[1] - t[0]);
+        } else {
+            normal = normalized_or_zero(distance < 0 ? -normal : normal);
+        }
+        return {distance, point, on_body, normal, triangle};
+    }
+
+    const Model& model_;
+    Transform world_;
+    bool is_solid_ = false;
+};
+
+} // namespace
+
+std::unique_ptr<const BodyGaps> make_body_gaps(const RigidShape& body,
+                                               const Transform& world_from_body) {
+    const RigidShapeData& data = body.data();
+    const Box3 bounds = bounds_of(data.shape, data.own_bounds, world_from_body);
+    if (const auto* model = std::get_if<Model>(&data.shape))
+        return std::make_unique<ModelGaps>(bounds, *model, world_from_body);
+    if (const auto* plane = std::get_if<PlaneShape>(&data.shape))
+        return std::make_unique<HalfSpaceGaps>(bounds, placed(*plane, world_from_body));
+    const SupportShape solid = with_largest_radius(*support_of({data.shape, world_from_body}));
+    if (RoundGaps::has_line_core(solid))
+        return std::make_unique<RoundGaps>(bounds, solid);
+    return std::make_unique<SolidGaps>(bounds, solid);
+}
+
+} // namespace abut
