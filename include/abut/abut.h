@@ -12,6 +12,7 @@
 #include <abut/clash_groups.h>
 #include <abut/clash_review.h>
 #include <abut/compound.h>
+#include <abut/constraint_colours.h>
 #include <abut/contacts.h>
 #include <abut/convex.h>
 #include <abut/convex_pieces.h>
@@ -43,6 +44,7 @@
 #include <abut/shapes.h>
 #include <abut/store.h>
 #include <abut/store_clash.h>
+#include <abut/surface_contacts.h>
 #include <abut/topics.h>
 #include <abut/tour.h>
 #include <abut/types.h>
