@@ -168,7 +168,8 @@ void add_shares(std::vector<Row>& rows) {
 
 std::vector<Row> ccd_step_rows(const CcdStep& step, int rounds) {
     std::vector<Row> rows{all_impacts_row(step, rounds), threads_row(step, rounds),
-                          earliest_row(step, rounds), at_rest_row(step, rounds)};
+                          earliest_row(step, rounds), at_rest_row(step, rounds),
+                          near_row(step, rounds)};
     const auto add = [&](const std::string& name, const DeformableOptions& options) {
         rows.push_back(scheme_row(step, name, {}, options, rounds));
     };

@@ -2,6 +2,7 @@
 
 #include <abut/deformable.h>
 #include <abut/progress.h>
+#include <abut/vector.h>
 #include <abut/world.h>
 
 #include "measure.h"
@@ -39,6 +40,27 @@ Mesh cloth() {
     return mesh;
 }
 
+/// Two waving layers, one above the other. Features of both layers and within a layer are near.
+Mesh two_layers(double gap) {
+    Mesh mesh = cloth();
+    const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
+    const std::size_t triangles = mesh.triangles.size();
+    for (std::uint32_t v = 0; v < vertices; ++v)
+        mesh.positions.push_back(mesh.positions[v] + Vec3{0.3 / kCells, 0.2 / kCells, gap});
+    for (std::size_t i = 0; i < triangles; ++i) {
+        const auto& t = mesh.triangles[i];
+        mesh.triangles.push_back({t[0] + vertices, t[1] + vertices, t[2] + vertices});
+    }
+    return mesh;
+}
+
+double mean_edge(const Deformable& surface, const std::vector<Vec3>& positions) {
+    double sum = 0;
+    for (const auto& [a, b] : surface.edges())
+        sum += length(positions[b] - positions[a]);
+    return surface.edges().empty() ? 0 : sum / static_cast<double>(surface.edges().size());
+}
+
 Model tetrahedron() {
     return Model(Mesh{{{0, 0, 0.5}, {0.1, 0, 0.5}, {0, 0.1, 0.5}, {0, 0, 0.6}},
                       {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}});
@@ -68,6 +90,35 @@ Row at_rest_row(const CcdStep& step, int rounds) {
         row.counters["pairs of triangles of the peer"] = static_cast<double>(*pairs);
     }
     return row;
+}
+
+Row near_row(const CcdStep& step, int rounds) {
+    constexpr double kShareOfEdge = 0.3; // the usual thickness of cloth
+    Deformable surface(step.start);
+    const double distance = kShareOfEdge * mean_edge(surface, step.start.positions);
+    std::size_t pairs = 0, impacts = 0;
+    set_threads(1);
+    const Turns turns = take_turns(
+        rounds, [&] { pairs = self_within(surface, distance).size(); },
+        [&] { impacts = self_impacts(surface, {.thickness = distance}).list.size(); });
+    set_threads(0);
+    Row row{step.name + ", near pairs at rest",
+            kMilliseconds * turns.ours,
+            "abut, impacts with that thickness",
+            kMilliseconds * turns.theirs,
+            "ms",
+            1,
+            {}};
+    row.counters["near pairs"] = static_cast<double>(pairs);
+    row.counters["impacts"] = static_cast<double>(impacts);
+    row.counters["distance"] = distance;
+    return row;
+}
+
+void add_near_rows(Report& report, int rounds) {
+    report.rows.push_back(near_row({"a cloth of 39,762 triangles", cloth(), {}}, rounds));
+    report.rows.push_back(
+        near_row({"two layers of 39,762 triangles each", two_layers(0.003), {}}, rounds));
 }
 
 void add_refresh_row(Report& report, int steps) {
