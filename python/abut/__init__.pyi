@@ -1201,6 +1201,20 @@ class Cone:
     def radius(self) -> float:
         """length, at least 0"""
 
+class ConstraintColours:
+    """Constraints in groups of which no two share a vertex. Returned by colour_constraints."""
+    @property
+    def order(self) -> NDArray[np.uint32]:
+        """uint32 array: the constraints of the first colour, then those of the second, ..."""
+    @property
+    def begins(self) -> NDArray[np.uint32]:
+        """uint32 array: where each colour begins in `order`, and its length"""
+    def count(self) -> int:
+        """The number of colours."""
+    def of(self, colour: int) -> NDArray[Any]:
+        """The constraints of a colour: a uint32 array."""
+    def __len__(self) -> int: ...
+
 class ContactManifold:
     """A region where two bodies are in contact, world frame."""
     dtype: np.dtype[Any]
@@ -1762,7 +1776,7 @@ class FeatureImpact:
         """unit vector from b towards a"""
 
 class FeaturePair:
-    """Two features at rest that are near each other."""
+    """Two features at rest that are near each other. The gradient of their distance by vertices[i] is weights[i] * normal."""
     dtype: np.dtype[Any]
     @property
     def kind(self) -> ElementaryKind:
@@ -1771,17 +1785,38 @@ class FeaturePair:
     def face_first(self) -> bool:
         """the face is the first surface's, the vertex the second's"""
     @property
+    def side(self) -> int:
+        """1, -1 or 0: the side of the triangle that the vertex is on, or the sign of the edges' volume. Exact"""
+    @property
     def a(self) -> int:
         """vertex, or edge"""
     @property
     def b(self) -> int:
         """triangle, or edge"""
     @property
+    def vertices(self) -> NDArray[np.uint32]:
+        """those of a, then those of b"""
+    @property
     def distance(self) -> float:
         """length"""
     @property
+    def limit(self) -> float:
+        """the distance up to which this pair is listed"""
+    @property
     def barycentric(self) -> NDArray[np.float64]:
         """of the closest points"""
+    @property
+    def weights(self) -> NDArray[np.float64]:
+        """of the vertices: the sum of weight times position is point_a - point_b"""
+    @property
+    def point_a(self) -> NDArray[np.float64]:
+        """closest point of a"""
+    @property
+    def point_b(self) -> NDArray[np.float64]:
+        """closest point of b"""
+    @property
+    def normal(self) -> NDArray[np.float64]:
+        """unit vector from point_b to point_a"""
 
 class FeatureTest:
     """Two features to be tested."""
@@ -2735,6 +2770,28 @@ class NearParts:
     @property
     def misses(self) -> int:
         """of these, those that were not in memory"""
+
+class NearVertices:
+    """What a query of near features knows of the vertices of a surface: arrays with an entry for each vertex.
+
+    thickness  lengths; a feature is as thick as the thickest of its vertices. None: 0
+    groups     bit sets; a feature belongs to the groups of all its vertices. None: 1
+    masks      bit sets; a feature meets the groups that all its vertices meet. None: all
+    moved      true for vertices that have moved: only pairs with such a vertex are listed. None: all pairs
+    """
+    def __init__(self, thickness: ArrayLike | None = ..., groups: ArrayLike | None = ..., masks: ArrayLike | None = ..., moved: ArrayLike | None = ...) -> None: ...
+    @property
+    def thickness(self) -> NDArray[np.float64]:
+        """float64 array; empty: 0"""
+    @property
+    def groups(self) -> NDArray[np.uint32]:
+        """uint32 array; empty: 1"""
+    @property
+    def masks(self) -> NDArray[np.uint32]:
+        """uint32 array; empty: all"""
+    @property
+    def moved(self) -> NDArray[Any]:
+        """bool array; empty: all pairs"""
 
 class Nearest:
     """Returned by nearest: a point of the surface."""
@@ -3909,6 +3966,40 @@ class StoredProperty:
     def values(self) -> int:
         """how many different ones"""
 
+class SurfaceContact:
+    """A point of a surface that is near a rigid body, or in it. The gradient of the distance by vertices[i] is weights[i] * normal."""
+    dtype: np.dtype[Any]
+    @property
+    def feature(self) -> Feature:
+        """Feature: the part of the surface that has the point in its inside"""
+    @property
+    def id(self) -> int:
+        """vertex, row of Deformable.edges or of Deformable.faces"""
+    @property
+    def vertices(self) -> NDArray[np.uint32]:
+        """of that part; the last one is repeated"""
+    @property
+    def weights(self) -> NDArray[np.float64]:
+        """of the vertices, sum 1"""
+    @property
+    def distance(self) -> float:
+        """along the normal; negative in a solid"""
+    @property
+    def limit(self) -> float:
+        """the distance up to which this contact is listed"""
+    @property
+    def point(self) -> NDArray[np.float64]:
+        """on the surface"""
+    @property
+    def point_on_body(self) -> NDArray[np.float64]:
+        """on the body's boundary"""
+    @property
+    def normal(self) -> NDArray[np.float64]:
+        """unit vector out of the body"""
+    @property
+    def triangle(self) -> int:
+        """of a Model, that of point_on_body; else 0"""
+
 class Surfaces:
     """The parts of a ClashReport that bound no solid."""
     @property
@@ -4770,6 +4861,16 @@ def collide(a: ConvexPieces, pose_a: _OnePose, b: ConvexPieces, pose_b: _OnePose
 def collide(a: ConvexPieces, pose_a: _Poses, b: ConvexPieces, pose_b: _Poses, *, mode: ContactMode | str = ..., warm_start: PiecesWarmStart | None = ..., progress: _Progress = ..., triangles: bool = ...) -> Any: ...
 @overload
 def collide(robot: Robot, configuration: ArrayLike, *, self_pairs: bool = ..., obstacles: RobotObstacles | None = ..., root: bool = ..., progress: _Progress = ...) -> Any: ...
+def colour_constraints(constraints: ArrayLike, fixed: ArrayLike | None = ...) -> ConstraintColours:
+    """Colours constraints on two, three or four vertices each, so that no two of a colour share a vertex.
+
+    constraints  integer array of shape (n, k), k from 2 to 4: Deformable.edges, or `vertices` of what
+                 within returned. A constraint may repeat a vertex
+    fixed        true for vertices that no constraint moves: these may be shared
+
+    Returns ConstraintColours: each constraint has the first colour that no earlier one at its vertices has.
+    Raises Error (bad_argument) if a vertex has no entry in fixed.
+    """
 def common_volume(a: Volume | str, b: Volume | str) -> Volume:
     """The Volume that a query of two models of these kinds tests: their own if it is the same,
     ssv for different swept spheres (sphere, pss, lss, rss, ssv), and else the boxes that every
@@ -5330,10 +5431,17 @@ def self_time_of_impact(surface: Deformable, *, absolute_error: float = ..., thi
 
     Returns FeatureImpact, or None.
     """
-def self_within(surface: Deformable, distance: float, *, progress: _Progress = ...) -> np.recarray[Any, Any]:
-    """Every vertex and face, and every two edges, at most `distance` apart at the start of the step.
+def self_within(surface: Deformable, distance: float, *, at_end: bool = ..., vertices: NearVertices | None = ..., progress: _Progress = ...) -> np.recarray[Any, Any]:
+    """Every vertex and face, and every two edges, of a Deformable that are near each other at one end of the step.
 
-    Returns a record array of FeaturePair. Raises Error (bad_argument) if the distance is negative.
+    distance    length; the thicknesses of both features are added to it
+    at_end      take the positions at the end of the step, not those at its start
+    vertices    NearVertices: thickness, groups, masks and marks of moved vertices; within() of two surfaces
+                has vertices_b as well
+    progress    function of (stage, fraction)
+
+    Returns a record array of FeaturePair, each pair once, sorted. Raises Error (bad_argument) if the distance
+    is negative, or if an array has another length than there are vertices.
     """
 def set_helper_folder(folder: _Path) -> None:
     """Tells where the helper programs lie that read some model files. The package calls it for those of the wheel."""
@@ -5403,9 +5511,14 @@ def within(a: Model, pose_a: _OnePose, b: Model, pose_b: _OnePose, tolerance: fl
 
     a, b            two Model or two ConvexPieces
     pose_a, pose_b  as for collide
-    surface_a, _b   two Deformable: lists all near pairs of features
+    surface_a, _b   two Deformable: lists all near pairs of features, as self_within
+    surface, body   a Deformable and a rigid shape (Model, Convex, Sphere, Capsule, Box3, Cylinder, Cone,
+                    Ellipsoid, HalfSpace): lists the parts of the surface that are near it or in it
+    at_end          take the positions at the end of the step
+    vertices        NearVertices of the (first) surface; vertices_b: of the second
 
-    Returns a bool; with many poses an array of bool of shape (n,). Of deformables a record array of FeaturePair.
+    Returns a bool; with many poses an array of bool of shape (n,). Of two deformables a record array of
+    FeaturePair, of a deformable and a body one of SurfaceContact.
     Raises Error (bad_argument) if the tolerance is negative; KeyboardInterrupt at Ctrl-C.
     """
 @overload
@@ -5415,7 +5528,9 @@ def within(a: ConvexPieces, pose_a: _OnePose, b: ConvexPieces, pose_b: _OnePose,
 @overload
 def within(a: ConvexPieces, pose_a: _Poses, b: ConvexPieces, pose_b: _Poses, tolerance: float, *, warm_start: PiecesWarmStart | None = ..., progress: _Progress = ...) -> Any: ...
 @overload
-def within(a: Deformable, b: Deformable, distance: float, *, progress: _Progress = ...) -> Any: ...
+def within(a: Deformable, b: Deformable, distance: float, *, at_end: bool = ..., vertices: NearVertices | None = ..., vertices_b: NearVertices | None = ..., progress: _Progress = ...) -> np.recarray[Any, Any]: ...
+@overload
+def within(surface: Deformable, body: _RigidShape, pose: _OnePose | ArrayLike, distance: float, *, at_end: bool = ..., vertices: NearVertices | None = ..., progress: _Progress = ...) -> np.recarray[Any, Any]: ...
 def write_bcf(file: BcfFile, path: _Path, version: BcfVersion | str = ...) -> None:
     """Writes a BCF file of version 2.1 or 3.0. Raises Error: bad_argument, cannot_write."""
 def write_clash_csv(report: ClashReport, path: _Path) -> None:

@@ -112,6 +112,9 @@ OWN_PARAMETERS = {
     "Cone": {"apex": "ArrayLike", "base": "ArrayLike"}, "Ellipsoid": {"semi_axes": "ArrayLike"},
     "World": {"filter": "Callable[[int, int], bool] | None"}, "BroadPhase": {"filter": "Callable[[int, int], bool] | None"},
     "overlapping_boxes": {"filter": "Callable[[int, int], bool] | None"},
+    "self_within": {"vertices": "NearVertices | None"}, "NearVertices": {
+        "thickness": "ArrayLike | None", "groups": "ArrayLike | None", "masks": "ArrayLike | None", "moved": "ArrayLike | None"},
+    "colour_constraints": {"constraints": "ArrayLike", "fixed": "ArrayLike | None"}, "ConstraintColours.of": {"colour": "int"},
     "Representatives": {"faces": "ArrayLike"}, "Representatives.set_triangles": {"faces": "ArrayLike"},
     "Representatives.set_motion": {"start": "ArrayLike", "end": "ArrayLike"},
     "Deformable.set_motion": {"start": "ArrayLike", "end": "ArrayLike"}, "Deformable.advance": {"end": "ArrayLike"},
@@ -161,7 +164,11 @@ OTHER_OVERLOADS = {
                  "def distance(model: Model, pose: _OnePose | ArrayLike, segment: Segment, *, upper_bound: float = ..., "
                  "absolute_error: float = ..., relative_error: float = ..., max_steps: int | None = ..., "
                  "progress: _Progress = ...) -> Any: ..."],
-    "within": ["def within(a: Deformable, b: Deformable, distance: float, *, progress: _Progress = ...) -> Any: ..."],
+    "within": ["def within(a: Deformable, b: Deformable, distance: float, *, at_end: bool = ..., "
+               "vertices: NearVertices | None = ..., vertices_b: NearVertices | None = ..., "
+               "progress: _Progress = ...) -> np.recarray[Any, Any]: ...",
+               "def within(surface: Deformable, body: _RigidShape, pose: _OnePose | ArrayLike, distance: float, *, "
+               "at_end: bool = ..., vertices: NearVertices | None = ..., progress: _Progress = ...) -> np.recarray[Any, Any]: ..."],
     "time_of_impact": [
         "def time_of_impact(robot: Robot, start: ArrayLike, end: ArrayLike, *, self_pairs: bool = ..., "
         "obstacles: RobotObstacles | None = ..., root: bool = ..., absolute_error: float = ..., "

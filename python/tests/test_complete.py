@@ -146,7 +146,7 @@ OPTIONS = {
     "BroadPhaseOptions": "BroadPhase", "ClashOptions": "find_clashes", "ConvexOptions": "Convex", "ConvexDistanceOptions": "distance",
     "ConvexPenetrationOptions": "penetration", "PiecesDistanceOptions": "distance", "PiecesWithinOptions": "within",
     "PiecesCollideOptions": "collide", "PiecesPenetrationOptions": "penetration", "DeformableOptions": "Deformable",
-    "IntersectionOptions": "self_intersections",
+    "IntersectionOptions": "self_intersections", "NearOptions": "self_within",
     "ElementaryOptions": "elementary_impact", "ModelOptions": "Model", "ImpactOptions": "time_of_impact",
     "PenetrationOptions": "penetration", "ManifoldOptions": "contact_manifolds", "CollideOptions": "collide", "DistanceOptions": "distance", "WithinOptions": "within",
     "ReadOptions": "read_scene", "NearestOptions": "nearest", "ImportOptions": "import_models", "StoreOptions": "open_store",

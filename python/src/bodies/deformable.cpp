@@ -5,7 +5,6 @@
 #include "queries/queries.h"
 #include "support/meshes.h"
 
-#include <functional>
 #include <string>
 
 namespace abut::python {
@@ -17,26 +16,6 @@ ElementaryOptions options_of_impacts(const Arguments& arguments, std::size_t fir
     arguments.take(first, "absolute_error", options.absolute_error);
     arguments.take(first + 1, "thickness", options.thickness);
     return options;
-}
-
-constexpr const char* kSurface = "a deformable";
-
-/// Runs a query of one surface.
-template <class Query>
-auto read_one(const Arguments& arguments, std::size_t report, Query query) {
-    auto& surface = get<Surface>(arguments[0], "surface");
-    const InUse::Read read(surface.use, kSurface);
-    Work work(arguments[report]);
-    return work.run([&](const Progress& progress) { return query(surface.value, progress); });
-}
-/// Runs a query of two surfaces.
-template <class Query>
-auto read_two(const Arguments& arguments, std::size_t report, Query query) {
-    auto& a = get<Surface>(arguments[0], "a");
-    auto& b = get<Surface>(arguments[1], "b");
-    const InUse::Read read_a(a.use, kSurface), read_b(b.use, kSurface);
-    Work work(arguments[report]);
-    return work.run([&](const Progress& progress) { return query(a.value, b.value, progress); });
 }
 
 py::object run_self_impacts(const Arguments& arguments) {
@@ -81,20 +60,6 @@ py::object run_free(const Arguments& arguments) {
             return is_free_of_impacts(a, b, options, progress);
         }));
 }
-py::object run_self_within(const Arguments& arguments) {
-    const double distance = to_double(arguments[1], "distance");
-    return records(read_one(arguments, 2, [&](const Deformable& surface, const Progress& progress) {
-        return self_within(surface, distance, {.progress = progress});
-    }));
-}
-py::object run_surfaces_within(const Arguments& arguments) {
-    const double distance = to_double(arguments[2], "distance");
-    return records(read_two(
-        arguments, 3, [&](const Deformable& a, const Deformable& b, const Progress& progress) {
-            return within(a, b, distance, {.progress = progress});
-        }));
-}
-
 py::object run_self_intersections(const Arguments& arguments) {
     IntersectionOptions options;
     arguments.take(1, "at_end", options.at_end);
@@ -136,10 +101,6 @@ template <class Read>
 auto read_surface(Surface& surface, Read read) {
     const InUse::Read use(surface.use, kSurface);
     return read(std::as_const(surface.value));
-}
-
-bool a_surface(PyObject* first, PyObject* /*third*/) {
-    return is_a<Surface>(first);
 }
 
 py::class_<Surface> surface_class(py::module_& module) {
@@ -270,16 +231,6 @@ void bind_results(py::module_& module) {
                "weights in the face, or parameters on the edges")
         .field("normal", &FeatureImpact::normal, "unit vector from b towards a")
         .done();
-    RecordBinder<FeaturePair>(module, "FeaturePair",
-                              "Two features at rest that are near each other.")
-        .field("kind", &FeaturePair::kind, "ElementaryKind")
-        .field("face_first", &FeaturePair::face_first,
-               "the face is the first surface's, the vertex the second's")
-        .field("a", &FeaturePair::a, "vertex, or edge")
-        .field("b", &FeaturePair::b, "triangle, or edge")
-        .field("distance", &FeaturePair::distance, "length")
-        .field("barycentric", &FeaturePair::barycentric, "of the closest points")
-        .done();
     RecordBinder<EdgeFaceIntersection>(module, "EdgeFaceIntersection",
                                        "An edge and a face at rest that share a point.")
         .field("face_first", &EdgeFaceIntersection::face_first,
@@ -321,17 +272,7 @@ constexpr const char* kOptions =
     "thickness       length at which features count as meeting\n"
     "progress        function of (stage, fraction)\n\n";
 
-using AddQuery = std::function<void(const char* name, const char* parameters, std::size_t required,
-                                    const char* list, const std::string& doc,
-                                    py::object (*run)(const Arguments&))>;
-
 void bind_queries_at_rest(const AddQuery& add) {
-    add("self_within", "surface, distance, *, progress=None", 2, "surface distance * progress",
-        "Every vertex and face, and every two edges, at most `distance` apart at the start of the "
-        "step.\n\n"
-        "Returns a record array of FeaturePair. Raises Error (bad_argument) if the distance is "
-        "negative.",
-        run_self_within);
     const std::string at_rest =
         "at_end    take the positions at the end of the step, not those at its start\n"
         "progress  function of (stage, fraction)\n\n"
@@ -388,9 +329,9 @@ void bind_surface_queries(py::module_& module) {
              "Returns a bool."),
         run_free);
     bind_queries_at_rest(add);
+    bind_near_queries(module, add);
     add_overload("time_of_impact",
                  {a_surface, {"a b * absolute_error thickness progress", 2}, run_time});
-    add_overload("within", {a_surface, {"a b distance * progress", 3}, run_surfaces_within});
 }
 
 } // namespace
@@ -409,6 +350,7 @@ void bind_deformable(py::module_& module) {
                                "How an edge and a face that share a point lie to each other.");
     bind_results(module);
     bind_class(module);
+    bind_near_results(module);
     bind_surface_queries(module);
     bind_representatives(module);
 }

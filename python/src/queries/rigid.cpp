@@ -131,13 +131,23 @@ constexpr const char* kDistance =
 
 constexpr const char* kWithin =
     "within(a, pose_a, b, pose_b, tolerance, *, warm_start=None, progress=None)\n"
-    "within(surface_a, surface_b, distance, *, progress=None)\n\n"
+    "within(surface_a, surface_b, distance, *, at_end=False, vertices=None, vertices_b=None, "
+    "progress=None)\n"
+    "within(surface, body, pose, distance, *, at_end=False, vertices=None, progress=None)\n\n"
     "Whether some two points are at most `tolerance` apart, a length.\n\n"
     "a, b            two Model or two ConvexPieces\n"
     "pose_a, pose_b  as for collide\n"
-    "surface_a, _b   two Deformable: lists all near pairs of features\n\n"
-    "Returns a bool; with many poses an array of bool of shape (n,). Of deformables a record array "
-    "of FeaturePair.\n"
+    "surface_a, _b   two Deformable: lists all near pairs of features, as self_within\n"
+    "surface, body   a Deformable and a rigid shape (Model, Convex, Sphere, Capsule, Box3, "
+    "Cylinder, "
+    "Cone,\n"
+    "                Ellipsoid, HalfSpace): lists the parts of the surface that are near it or in "
+    "it\n"
+    "at_end          take the positions at the end of the step\n"
+    "vertices        NearVertices of the (first) surface; vertices_b: of the second\n\n"
+    "Returns a bool; with many poses an array of bool of shape (n,). Of two deformables a record "
+    "array of\n"
+    "FeaturePair, of a deformable and a body one of SurfaceContact.\n"
     "Raises Error (bad_argument) if the tolerance is negative; KeyboardInterrupt at Ctrl-C.";
 
 bool two_models(PyObject* first, PyObject* third) {
