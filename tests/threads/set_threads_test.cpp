@@ -10,6 +10,7 @@
 #include <abut/scene.h>
 #include <abut/shape_queries.h>
 #include <abut/store_clash.h>
+#include <abut/surface_contacts.h>
 #include <abut/world.h>
 
 #include "scenes/bodies.h"
@@ -23,6 +24,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <gtest/gtest.h>
 #include <string>
 #include <thread>
@@ -101,6 +103,13 @@ TEST(SetThreads, BesideSelfImpactsOfEachSchemeAndCulling) {
         }
 }
 
+std::vector<std::uint8_t> every_third(std::size_t count) {
+    std::vector<std::uint8_t> marks(count, 0);
+    for (std::size_t i = 0; i < count; i += 3)
+        marks[i] = 1;
+    return marks;
+}
+
 TEST(SetThreads, BesideOtherQueriesOfDeformables) {
     const MovingMesh cloth = folding_cloth(kClothCells);
     const Deformable surface = cloth.deformable(),
@@ -108,6 +117,10 @@ TEST(SetThreads, BesideOtherQueriesOfDeformables) {
     expect_same_answers([&] { return self_time_of_impact(surface); });
     expect_same_answers([&] { return is_free_of_self_impacts(surface); });
     expect_same_answers([&] { return self_within(surface, 0.02); });
+    const std::vector<std::uint8_t> moved = every_third(surface.vertex_count());
+    expect_same_answers(
+        [&] { return self_within(surface, 0.02, {.at_end = true, .vertices = {.moved = moved}}); });
+    expect_same_answers([&] { return within(surface, Sphere{{}, 0.5}, {}, 0.1); });
     expect_same_answers([&] { return self_intersections(surface, {.at_end = true}); });
     expect_same_answers([&] { // a changed surface refits its trees in parallel
         Deformable other = cloth.deformable({.scheme = Scheme::database});

@@ -141,6 +141,11 @@ TEST(Stops, AFlagThatIsSetEndsEveryQuery) {
         {"free of impacts", [&] { is_free_of_impacts(cloth, other, {}, progress); }},
         {"self pairs", [&] { self_within(cloth, 1, {.progress = progress}); }},
         {"pairs", [&] { within(cloth, other, 1, {.progress = progress}); }},
+        {"contacts with a ball",
+         [&] {
+             within(cloth, Sphere{p, 1}, {}, 1, {.progress = progress});
+         }},
+        {"contacts with a model", [&] { within(cloth, a, {}, 1, {.progress = progress}); }},
         {"elementary impacts", [&] { elementary_impacts(pairs, {}, progress); }},
         {"bodies that meet", [&] { world.collide(progress); }},
         {"penetration of bodies", [&] { world.penetration(progress); }},
