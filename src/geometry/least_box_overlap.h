@@ -16,8 +16,11 @@ struct LeastOverlap {
 
 /// The least overlap of the boxes, without their radii, among the 15 axes that can separate them.
 ///
+/// In          farthest: if an axis of a face tells that the boxes are farther apart, the search
+///             ends with that axis.
 /// Accuracy    a few roundings of the centres' differences.
 /// Source      separating axes [Gottschalk, Lin, Manocha 1996].
-LeastOverlap least_overlap(const RoundedBox& a, const RoundedBox& b);
+LeastOverlap least_overlap(const RoundedBox& a, const RoundedBox& b,
+                           double farthest = std::numeric_limits<double>::infinity());
 
 } // namespace abut

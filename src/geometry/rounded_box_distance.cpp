@@ -326,10 +326,16 @@ Vec3 normal_of_touching(const Vec3& u, const Vec3& v, const SegmentPoints& close
     return sine > 0x1p-26 ? (1 / sine) * both : perpendicular(along_u);
 }
 
-/// The gap of two segments with radii. Segments that cross overlap by nothing but their radii.
-SolidGap gap_of_segments(const RoundedBox& a, const RoundedBox& b, const Vec3& along_a,
-                         const Vec3& along_b) {
-    const Vec3 u = 2 * along_a, v = 2 * along_b, r = (b.centre - a.centre) + (along_a - along_b);
+SolidGap turned_round(const SolidGap& gap) {
+    return {gap.distance, gap.point_b, gap.point_a, -gap.normal};
+}
+
+} // namespace
+
+// Segments that cross overlap by nothing but their radii.
+SolidGap capsule_distance(const Sphere& a, const Vec3& half_a, const Sphere& b, const Vec3& half_b,
+                          double upper_bound) {
+    const Vec3 u = 2 * half_a, v = 2 * half_b, r = (b.centre - a.centre) + (half_a - half_b);
     const SegmentPoints closest = nearest_on_segments(u, v, r);
     // From the difference of the centres, which far from the origin is rounded less than points.
     const Vec3 way = (r + closest.t * v) - closest.s * u;
@@ -337,21 +343,17 @@ SolidGap gap_of_segments(const RoundedBox& a, const RoundedBox& b, const Vec3& a
     const double size = max_abs(u) + max_abs(v);
     Vec3 normal;
     if (distance > kClearShare * size) {
+        if (const double apart = distance - a.radius - b.radius; apart > upper_bound)
+            return {apart, {}, {}, {}};
         normal = (1 / distance) * way;
     } else {
         normal = normal_of_touching(u, v, closest, way, kBoxGapRounding * (size + max_abs(r)));
         distance = std::max(dot(way, normal), 0.0);
     }
-    const Candidate points{0, a.centre + (2 * closest.s - 1) * along_a,
-                           b.centre + (2 * closest.t - 1) * along_b, way};
-    return with_radii(a, b, distance, points, normal);
+    return {distance - a.radius - b.radius,
+            (a.centre + (2 * closest.s - 1) * half_a) + a.radius * normal,
+            (b.centre + (2 * closest.t - 1) * half_b) - b.radius * normal, normal};
 }
-
-SolidGap turned_round(const SolidGap& gap) {
-    return {gap.distance, gap.point_b, gap.point_a, -gap.normal};
-}
-
-} // namespace
 
 SolidGap rounded_box_distance(const RoundedBox& a, const RoundedBox& b, double upper_bound) {
     if (is_point(b))
@@ -360,7 +362,8 @@ SolidGap rounded_box_distance(const RoundedBox& a, const RoundedBox& b, double u
         return turned_round(gap_of_ball(b, a));
     if (const Vec3 along_a = half_of_segment(a); along_a != Vec3{})
         if (const Vec3 along_b = half_of_segment(b); along_b != Vec3{})
-            return gap_of_segments(a, b, along_a, along_b);
+            return capsule_distance({a.centre, a.radius}, along_a, {b.centre, b.radius}, along_b,
+                                    upper_bound);
     const LeastOverlap least = least_overlap(a, b);
     // Slightly less than the axis tells, because that is rounded.
     const double apart = -least.overlap * (1 - 0x1p-40) - a.radius - b.radius;

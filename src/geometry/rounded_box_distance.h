@@ -1,5 +1,6 @@
 #pragma once
 
+#include <abut/shapes.h>
 #include <abut/types.h>
 
 #include "math/vector.h"
@@ -42,5 +43,14 @@ struct SolidGap {
 ///             two boxes is along one of these axes.
 SolidGap rounded_box_distance(const RoundedBox& a, const RoundedBox& b,
                               double upper_bound = std::numeric_limits<double>::infinity());
+
+/// Signed distance of two capsules.
+///
+/// In          a, b: the middles of the axes and the radii. half_a, half_b: from the middle of an axis to its
+///             end; not 0. upper_bound: if the distance is larger, the result has no witness points.
+/// Degenerate  axes that cross, or overlap: the normal is across both, if they have such a direction.
+/// Source      [Ericson 2005, 5.1.9], see `nearest_on_segments`.
+SolidGap capsule_distance(const Sphere& a, const Vec3& half_a, const Sphere& b, const Vec3& half_b,
+                          double upper_bound = std::numeric_limits<double>::infinity());
 
 } // namespace abut

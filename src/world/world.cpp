@@ -284,21 +284,23 @@ void World::contact_manifolds(std::vector<ContactManifold>& manifolds, double ma
     data_->update_if_changed();
     if (margin > 0)
         near_pairs_->update(margin);
-    auto& warm_starts = margin > 0 ? near_pairs_->warm_starts() : data_->warm_starts();
+    // A few more than in the last step: a list that is too short by one is copied.
+    const std::size_t found = data_->parts().manifolds_found, expected = found + found / 16;
+    auto* const touching = margin > 0 ? nullptr : &data_->warm_starts();
     find_all<ContactManifold>(
         progress, "contacts", margin > 0 ? near_pairs_->pairs() : data_->broad_phase().pairs(),
         [&](IndexPair pair, std::size_t k, std::vector<ContactManifold>& part) {
             const std::size_t first = part.size();
             append_contacts(
                 {data_->placed(pair.a()), data_->placed(pair.b()), data_->placements_of(pair)},
-                margin, warm_starts[k], part);
+                margin, touching != nullptr ? (*touching)[k] : near_pairs_->warm_start(k), part);
             for (std::size_t i = first; i < part.size(); ++i) {
                 name_bodies(*data_, pair, part[i]);
                 part[i].user_data_a = data_->bodies()[pair.a()].options.user_data;
                 part[i].user_data_b = data_->bodies()[pair.b()].options.user_data;
             }
         },
-        data_->parts().manifolds, manifolds, data_->parts().manifolds_found);
+        data_->parts().manifolds, manifolds, expected);
     data_->parts().manifolds_found = manifolds.size();
     if (data_->has_pieces())
         unite_pieces(manifolds);

@@ -23,6 +23,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <variant>
 
@@ -62,9 +63,9 @@ std::span<const std::uint64_t> names_of(const PairWarmStart& warm_start) {
     return {warm_start.points.data(), warm_start.points.size()};
 }
 
-/// The contact of two convex shapes. Returns whether they are at most the margin apart.
+/// Appends the contact of two convex shapes. Returns whether they are at most the margin apart.
 bool convex_contact(const PlacedBody& a, const PlacedBody& b, double margin,
-                    PairWarmStart& warm_start, ContactManifold& manifold) {
+                    PairWarmStart& warm_start, std::vector<ContactManifold>& manifolds) {
     const BodyGap gap =
         gap_between(a, b, std::nextafter(margin, HUGE_VAL), Depths::yes, warm_start);
     if (gap.distance > margin)
@@ -79,7 +80,7 @@ bool convex_contact(const PlacedBody& a, const PlacedBody& b, double margin,
     set_corners_and_witness(face_of(a, normal, origin), face_of(b, -normal, origin),
                             ContactFrame(origin, normal),
                             {gap.distance, gap.point_a, gap.point_b, normal},
-                            {margin, rounding, names_of(warm_start)}, manifold);
+                            {margin, rounding, names_of(warm_start)}, manifolds);
     return true;
 }
 
@@ -140,33 +141,6 @@ void add_plane_corners(const PlacedBody& a, const PlacedBody& b, double margin,
         set_plane_corners(corners_over_plane(surface, plane, margin + limits.rounding, origin),
                           body_is_a, plane, limits, manifold);
     }
-}
-
-/// The contact of two convex shapes, by the cheapest way there is for them.
-bool solid_contact(const PlacedBody& a, const PlacedBody& b, double margin,
-                   PairWarmStart& warm_start, ContactManifold& manifold) {
-    const auto* box_a = std::get_if<RoundedBox>(&a.shape);
-    const auto* box_b = std::get_if<RoundedBox>(&b.shape);
-    if (box_a == nullptr || box_b == nullptr)
-        return convex_contact(a, b, margin, warm_start, manifold);
-    // Those that rounding puts beyond the margin are looked at too; is_within decides.
-    const double at_most = margin + 2 * contact_rounding(a, b);
-    const RoundedBox placed_a = placed(*box_a, a.world_from_body),
-                     placed_b = placed(*box_b, b.world_from_body);
-    // In the order in which gap_between measures: of several normals that are as good, it has one.
-    if (!comes_before(*box_b, b.world_from_body, *box_a, a.world_from_body))
-        return rounded_box_contact(placed_a, placed_b, at_most, names_of(warm_start), manifold);
-    auto last = warm_start.points;
-    std::transform(last.begin(), last.end(), last.begin(), turned_round);
-    const bool is_near =
-        rounded_box_contact(placed_b, placed_a, at_most, {last.data(), last.size()}, manifold);
-    manifold.normal = -manifold.normal;
-    for (std::uint32_t i = 0; is_near && i < manifold.count; ++i) {
-        ContactPoint& point = manifold.points[i];
-        std::swap(point.point_a, point.point_b);
-        point.feature = turned_round(point.feature);
-    }
-    return is_near;
 }
 
 /// Adds the ends of a capsule on a surface.
@@ -230,6 +204,64 @@ void keep_within_margin(const PlacedBody& a, const PlacedBody& b, double margin,
     for (auto each = begin; each != manifolds.end(); ++each)
         for (std::uint32_t i = 0; i < each->count; ++i)
             each->points[i].depth = std::max(each->points[i].depth, -margin);
+}
+
+/// Exchanges the bodies of a manifold.
+void exchange_bodies(ContactManifold& manifold) {
+    manifold.normal = -manifold.normal;
+    for (std::uint32_t i = 0; i < manifold.count; ++i) {
+        ContactPoint& point = manifold.points[i];
+        std::swap(point.point_a, point.point_b);
+        point.feature = turned_round(point.feature);
+    }
+}
+
+/// Whether b comes first in the order in which gap_between measures.
+bool b_comes_first(const PlacedBody& a, const PlacedBody& b) {
+    const RoundedBox &box_a = *a.box_in_world, &box_b = *b.box_in_world;
+    const auto size_a = std::tie(box_a.half, box_a.radius),
+               size_b = std::tie(box_b.half, box_b.radius);
+    if (size_a != size_b)
+        return size_b < size_a;
+    return comes_before(std::get<RoundedBox>(b.shape), b.world_from_body,
+                        std::get<RoundedBox>(a.shape), a.world_from_body);
+}
+
+/// Appends the contact of two boxes, capsules or balls whose places in the world are known.
+void append_box_contact(const PlacedBody& a, const PlacedBody& b, double margin,
+                        PairWarmStart& warm_start, std::vector<ContactManifold>& manifolds) {
+    const RoundedBox &box_a = *a.box_in_world, &box_b = *b.box_in_world;
+    // Those that rounding puts beyond the margin are looked at too; is_within decides.
+    const double doubt = 2 * (contact_share(box_a) + contact_share(box_b));
+    const double at_most = margin + doubt;
+    const std::size_t first = manifolds.size();
+    // Of several normals that are as good, gap_between has one.
+    if (b_comes_first(a, b)) {
+        auto last = warm_start.points;
+        std::transform(last.begin(), last.end(), last.begin(), turned_round);
+        if (!rounded_box_contact(box_b, box_a, at_most, {last.data(), last.size()}, manifolds))
+            return;
+        exchange_bodies(manifolds.back());
+    } else if (!rounded_box_contact(box_a, box_b, at_most, names_of(warm_start), manifolds)) {
+        return;
+    }
+    keep_within_margin(a, b, margin, doubt, warm_start, first, manifolds);
+}
+
+/// Appends the contact of two shapes with faces.
+void append_solid_contact(const PlacedBody& a, const PlacedBody& b, double margin,
+                          PairWarmStart& warm_start, std::vector<ContactManifold>& manifolds) {
+    const auto* box_a = std::get_if<RoundedBox>(&a.shape);
+    const auto* box_b = std::get_if<RoundedBox>(&b.shape);
+    const std::size_t first = manifolds.size();
+    if (box_a != nullptr && box_b != nullptr) {
+        const RoundedBox placed_a = placed(*box_a, a.world_from_body),
+                         placed_b = placed(*box_b, b.world_from_body);
+        append_box_contact({a.shape, a.world_from_body, &placed_a},
+                           {b.shape, b.world_from_body, &placed_b}, margin, warm_start, manifolds);
+    } else if (convex_contact(a, b, margin, warm_start, manifolds)) {
+        keep_within_margin(a, b, margin, doubt_of(a, b), warm_start, first, manifolds);
+    }
 }
 
 /// The contacts of two bodies with triangles, at least one of them a surface. Of bodies that have not
@@ -300,8 +332,10 @@ void append_contacts(const BodiesInContact& bodies, double margin, PairWarmStart
                      std::vector<ContactManifold>& manifolds) {
     const PlacedBody &a = bodies.a, &b = bodies.b;
     const std::size_t first = manifolds.size();
-    if ((is_surface(a.shape) || is_surface(b.shape)) &&
-        append_rounded_contact(a, b, margin, warm_start, manifolds)) {
+    if (a.box_in_world != nullptr && b.box_in_world != nullptr) {
+        append_box_contact(a, b, margin, warm_start, manifolds);
+    } else if ((is_surface(a.shape) || is_surface(b.shape)) &&
+               append_rounded_contact(a, b, margin, warm_start, manifolds)) {
         // All is told.
     } else if (is_surface(a.shape) || is_surface(b.shape)) {
         append_region_contacts(bodies, margin, warm_start, manifolds);
@@ -318,10 +352,8 @@ void append_contacts(const BodiesInContact& bodies, double margin, PairWarmStart
         }
     } else if (!has_faces(a.shape) || !has_faces(b.shape)) {
         append_one_point(a, b, margin, warm_start, manifolds);
-    } else if (solid_contact(a, b, margin, warm_start, manifolds.emplace_back())) {
-        keep_within_margin(a, b, margin, doubt_of(a, b), warm_start, first, manifolds);
     } else {
-        manifolds.pop_back();
+        append_solid_contact(a, b, margin, warm_start, manifolds);
     }
     if (manifolds.size() > first && is_half_space(a.shape) != is_half_space(b.shape))
         add_plane_corners(a, b, margin, warm_start, manifolds[first]);

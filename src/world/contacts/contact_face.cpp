@@ -3,8 +3,8 @@
 #include "convex/body/convex_data.h"
 #include "convex/hull/climb.h"
 #include "math/transform.h"
+#include "world/solids/box_face.h"
 
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -46,29 +46,16 @@ HullEdge flattest_edge(const Convex& body, const FaceTable& faces, std::uint32_t
 } // namespace
 
 ContactFace contact_face(const RoundedBox& box, const Vec3& direction, const Vec3& origin) {
-    std::array<double, 3> along{};
-    std::size_t k = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        along[i] = dot(direction, box.axis[i]);
-        if (std::abs(along[i]) > std::abs(along[k]))
-            k = i;
-    }
-    const bool positive = along[k] > 0;
+    const BoxFace chosen(box, direction);
+    const auto k = chosen.k, u = chosen.u, v = chosen.v;
     ContactFace face;
-    face.normal = positive ? box.axis[k] : -box.axis[k];
+    face.normal = chosen.normal(box);
     face.radius = box.radius;
     const Vec3 middle = (box.centre - origin) + box.half[k] * face.normal;
-    const std::uint32_t side = positive && box.half[k] > 0 ? 1U << k : 0U;
     // With u x v along the outward normal, the corners below run counter-clockwise.
-    const std::size_t u = positive ? (k + 1) % 3 : (k + 2) % 3, v = 3 - k - u;
     const Vec3 way_u = box.half[u] * box.axis[u], way_v = box.half[v] * box.axis[v];
-    const auto bit_u = static_cast<std::uint32_t>(1U << u),
-               bit_v = static_cast<std::uint32_t>(1U << v);
-    const auto edge = [](std::size_t axis, std::uint32_t vertex) {
-        // The two bits that are not the axis's own.
-        const std::uint32_t low = vertex & ((1U << axis) - 1), high = vertex >> (axis + 1) << axis;
-        return static_cast<std::uint32_t>(4 * axis) + (low | high);
-    };
+    const std::uint32_t side = chosen.side, bit_u = chosen.bit_u(), bit_v = chosen.bit_v();
+    const auto& edge = BoxFace::edge;
     if (box.half[u] > 0 && box.half[v] > 0) {
         face.corners = {{middle + way_u + way_v, side | bit_u | bit_v, edge(u, side | bit_v)},
                         {middle - way_u + way_v, side | bit_v, edge(v, side)},

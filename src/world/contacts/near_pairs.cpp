@@ -49,15 +49,39 @@ void NearPairs::update(double margin) {
         changed_.push_back(static_cast<std::uint32_t>(i));
     }
     broad_phase_.update(boxes_, changed_);
-    changes_.add(broad_phase_.begun(), broad_phase_.ended());
-    apply(changes_.settle(), broad_phase_.pairs(), warm_starts_);
-    changes_.clear();
+    if (!broad_phase_.begun().empty() || !broad_phase_.ended().empty())
+        place_warm_starts();
     if (!are_new)
         return;
     // Such a pair may have been one before, so that it has not begun.
-    for (std::size_t k = 0; k < warm_starts_.size(); ++k)
+    for (std::size_t k = 0; k < places_.size(); ++k)
         if (const IndexPair pair = pairs()[k]; (is_new_[pair.a()] | is_new_[pair.b()]) != 0)
-            warm_starts_[k] = {};
+            warm_start(k) = {};
+}
+
+void NearPairs::place_warm_starts() {
+    changes_.add(broad_phase_.begun(), broad_phase_.ended());
+    apply(changes_.settle(), broad_phase_.pairs(), places_);
+    changes_.clear();
+    was_taken_.swap(is_taken_);
+    is_taken_.assign(warm_starts_.size(), 0);
+    for (const WarmStartPlace at : places_)
+        if (at.place != WarmStartPlace::kNone)
+            is_taken_[at.place] = 1;
+    for (std::size_t i = 0; i < warm_starts_.size(); ++i)
+        if (was_taken_[i] > is_taken_[i])
+            warm_starts_[i] = {};
+    std::size_t free = 0;
+    for (WarmStartPlace& at : places_) {
+        if (at.place != WarmStartPlace::kNone)
+            continue;
+        while (free < is_taken_.size() && is_taken_[free] != 0)
+            ++free;
+        if (free == is_taken_.size())
+            warm_starts_.emplace_back(), is_taken_.push_back(0);
+        is_taken_[free] = 1;
+        at.place = static_cast<std::uint32_t>(free);
+    }
 }
 
 } // namespace abut

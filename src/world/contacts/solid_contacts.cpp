@@ -1,7 +1,8 @@
 #include "world/contacts/solid_contacts.h"
 
 #include "geometry/least_box_overlap.h"
-#include "geometry/triangle_triangle_distance.h"
+#include "world/solids/box_pair.h"
+#include "world/solids/capsule_pair.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,20 +10,6 @@
 namespace abut {
 
 namespace {
-
-void drop_beyond_margin(ContactCandidates& candidates, const ContactLimits& limits) {
-    const double least = -limits.margin - limits.rounding;
-    candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
-                                    [&](const ContactCandidate& c) { return c.depth() < least; }),
-                     candidates.end());
-}
-
-double deepest_of(const ContactCandidates& candidates) {
-    double depth = -HUGE_VAL;
-    for (const ContactCandidate& each : candidates)
-        depth = std::max(depth, each.depth());
-    return depth;
-}
 
 /// The vertex of a face that is farthest along a direction.
 const ContactFace::Corner& farthest_corner(const ContactFace& face, const Vec3& direction) {
@@ -54,27 +41,23 @@ bool has_no_extent(const RoundedBox& box) {
     return box.half[0] == 0 && box.half[1] == 0 && box.half[2] == 0;
 }
 
-bool is_segment(const RoundedBox& box) {
-    return std::count(box.half.begin(), box.half.end(), 0.0) == 2;
-}
-
 /// The contact along the direction of the distance or of the shortest separating motion.
 bool contact_by_distance(const RoundedBox& a, const RoundedBox& b, const ContactLimits& limits,
-                         ContactManifold& manifold) {
+                         std::vector<ContactManifold>& manifolds) {
     const SolidGap gap =
         rounded_box_distance(a, b, std::nextafter(limits.margin + limits.rounding, HUGE_VAL));
     if (gap.distance > limits.margin)
         return false;
     const ContactFrame frame(a.centre, gap.normal);
     set_corners_and_witness(contact_face(a, gap.normal, a.centre),
-                            contact_face(b, -gap.normal, a.centre), frame, gap, limits, manifold);
+                            contact_face(b, -gap.normal, a.centre), frame, gap, limits, manifolds);
     return true;
 }
 
 /// The contact along the axis on which the boxes overlap least. False if they are nearest along
 /// another direction; `apart` then tells whether they are farther apart than the margin.
 bool contact_by_axis(const RoundedBox& a, const RoundedBox& b, const ContactLimits& limits,
-                     bool& apart, ContactManifold& manifold) {
+                     bool& apart, std::vector<ContactManifold>& manifolds) {
     const LeastOverlap least = least_overlap(a, b);
     const double depth = least.overlap + a.radius + b.radius;
     apart = depth < -limits.margin - limits.rounding;
@@ -85,73 +68,51 @@ bool contact_by_axis(const RoundedBox& a, const RoundedBox& b, const ContactLimi
         return false;
     return set_corners(contact_face(a, least.normal, a.centre),
                        contact_face(b, -least.normal, a.centre),
-                       ContactFrame(a.centre, least.normal), depth, limits, manifold);
+                       ContactFrame(a.centre, least.normal), depth, limits, manifolds);
 }
 
 } // namespace
 
-void write_points(ContactCandidates& candidates, const ContactFrame& frame,
-                  const ContactLimits& limits, ContactManifold& manifold) {
-    drop_beyond_margin(candidates, limits);
-    keep_four(candidates, limits.rounding, limits.last);
-    manifold.normal = frame.normal;
-    manifold.region = 0;
-    manifold.status = Status::exact;
-    manifold.count = static_cast<std::uint32_t>(candidates.size());
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-        const ContactCandidate& from = candidates[i];
-        manifold.points[i] = {frame.world(from.x, from.y, from.height_a),
-                              frame.world(from.x, from.y, from.height_b), from.depth(),
-                              from.feature};
-    }
-}
-
 bool set_corners(const ContactFace& a, const ContactFace& b, const ContactFrame& frame,
-                 double depth, const ContactLimits& limits, ContactManifold& manifold) {
+                 double depth, const ContactLimits& limits,
+                 std::vector<ContactManifold>& manifolds) {
     ContactCandidates candidates;
     add_overlap_corners(a, b, frame, candidates);
     if (!(deepest_of(candidates) >= depth - limits.rounding))
         return false;
-    write_points(candidates, frame, limits, manifold);
+    write_points(candidates, frame, limits, manifolds.emplace_back());
     return true;
 }
 
 void set_corners_and_witness(const ContactFace& a, const ContactFace& b, const ContactFrame& frame,
                              const SolidGap& witness, const ContactLimits& limits,
-                             ContactManifold& manifold) {
+                             std::vector<ContactManifold>& manifolds) {
     ContactCandidates candidates;
     add_overlap_corners(a, b, frame, candidates);
-    if (!(deepest_of(candidates) >= -witness.distance - limits.rounding)) {
-        // Far from the origin, the witness points are rounded more than their distance.
-        const Vec3 on_a = witness.point_a - frame.origin;
-        const double height = dot(on_a, frame.normal);
-        const ContactCandidate added{dot(on_a, frame.across_x), dot(on_a, frame.across_y), height,
-                                     height + witness.distance, witness_name(a, b, frame.normal)};
-        const auto same =
-            std::find_if(candidates.begin(), candidates.end(), [&](const ContactCandidate& each) {
-                return each.feature == added.feature;
-            });
-        if (same != candidates.end())
-            *same = added;
-        else
-            candidates.push_back(added);
-    }
-    write_points(candidates, frame, limits, manifold);
+    if (!(deepest_of(candidates) >= -witness.distance - limits.rounding))
+        add_witness(witness, witness_name(a, b, frame.normal), frame, candidates);
+    write_points(candidates, frame, limits, manifolds.emplace_back());
 }
 
 bool rounded_box_contact(const RoundedBox& a, const RoundedBox& b, double margin,
-                         std::span<const std::uint64_t> last, ContactManifold& manifold) {
+                         std::span<const std::uint64_t> last,
+                         std::vector<ContactManifold>& manifolds) {
     const ContactLimits limits{
         margin, 0x1p-46 * (length(b.centre - a.centre) + size_of(a) + size_of(b)), last};
-    // The distance of two capsules costs less than the axes.
-    if (!has_no_extent(a) && !has_no_extent(b) && !(is_segment(a) && is_segment(b))) {
+    if (is_segment(a) && is_segment(b))
+        return contact_of_capsules(a, b, limits, manifolds);
+    if (is_plain_box(a) && is_plain_box(b)) {
+        if (const BoxContact found = contact_of_boxes(a, b, limits, manifolds);
+            found != BoxContact::unknown)
+            return found == BoxContact::written;
+    } else if (!has_no_extent(a) && !has_no_extent(b)) {
         bool apart = false;
-        if (contact_by_axis(a, b, limits, apart, manifold))
+        if (contact_by_axis(a, b, limits, apart, manifolds))
             return true;
         if (apart)
             return false;
     }
-    return contact_by_distance(a, b, limits, manifold);
+    return contact_by_distance(a, b, limits, manifolds);
 }
 
 } // namespace abut

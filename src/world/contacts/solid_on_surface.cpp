@@ -6,9 +6,9 @@
 #include "math/transform.h"
 #include "rigid/manifold/meeting_regions.h"
 #include "rigid/model/model_data.h"
-#include "world/contacts/four_points.h"
 #include "world/contacts/patch_points.h"
 #include "world/contacts/surface_patch.h"
+#include "world/solids/four_points.h"
 
 #include <algorithm>
 #include <cmath>

@@ -27,13 +27,6 @@ Vec3 absolute(const Vec3& v) {
     return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
 }
 
-Box3 bounds_of_rounded(const RoundedBox& box) {
-    Vec3 half{box.radius, box.radius, box.radius};
-    for (std::size_t k = 0; k < 3; ++k)
-        half = half + box.half[k] * absolute(box.axis[k]);
-    return grown(box.centre, half);
-}
-
 /// The box of the vertices that are extreme along the axes. It is tight.
 Box3 bounds_of_convex(const ConvexData& convex, const Transform& world_from_body) {
     const Polytope& polytope = convex.levels.front().polytope;
@@ -229,13 +222,20 @@ Segment axis_of(const RoundedBox& capsule) {
     return {capsule.centre - along, capsule.centre + along};
 }
 
+Box3 bounds_of(const RoundedBox& box) {
+    Vec3 half{box.radius, box.radius, box.radius};
+    for (std::size_t k = 0; k < 3; ++k)
+        half = half + box.half[k] * absolute(box.axis[k]);
+    return grown(box.centre, half);
+}
+
 Box3 bounds_of(const BodyShape& shape) {
     if (const auto* curved = std::get_if<CurvedShape>(&shape))
         return bounds_of_support(curved->solid);
     if (const auto* plane = std::get_if<PlaneShape>(&shape))
         return bounds_of_plane(*plane);
     if (const auto* box = std::get_if<RoundedBox>(&shape))
-        return bounds_of_rounded(*box);
+        return bounds_of(*box);
     if (const auto* deformable = std::get_if<DeformableShape>(&shape))
         return bounds_of_deformable(*deformable->surface);
     Box3 box;
@@ -253,7 +253,7 @@ Box3 bounds_of(const BodyShape& shape) {
 
 Box3 bounds_of(const BodyShape& shape, const Box3& own_bounds, const Transform& world_from_body) {
     if (const auto* box = std::get_if<RoundedBox>(&shape))
-        return bounds_of_rounded(placed(*box, world_from_body));
+        return bounds_of(placed(*box, world_from_body));
     if (const auto* convex = std::get_if<ConvexShape>(&shape))
         return bounds_of_convex(convex->solid.data(), world_from_body);
     if (const auto* curved = std::get_if<CurvedShape>(&shape))

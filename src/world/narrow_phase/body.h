@@ -90,6 +90,8 @@ Segment axis_of(const RoundedBox& capsule);
 /// The box of a shape in its own frame; empty for a model without triangles. That of a half-space is
 /// infinite.
 Box3 bounds_of(const BodyShape& shape);
+/// A box that encloses a rounded box, rounding included.
+Box3 bounds_of(const RoundedBox& box);
 /// A box that encloses the shape under its transform, rounding included.
 Box3 bounds_of(const BodyShape& shape, const Box3& own_bounds, const Transform& world_from_body);
 /// A box that encloses all points of a box under any transform, rounding included. In: not empty.

@@ -17,6 +17,8 @@ namespace abut {
 struct PlacedBody {
     const BodyShape& shape;
     const Transform& world_from_body;
+    /// The shape in the world, if it is a box and if that is known; else null.
+    const RoundedBox* box_in_world = nullptr;
 };
 
 /// Two bodies and their placements, by numbers that are unique in a world; 0: none.

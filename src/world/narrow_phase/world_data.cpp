@@ -185,7 +185,12 @@ void WorldData::set_changed(std::uint32_t index) {
 void WorldData::fit_box(std::uint32_t index) {
     Body& body = bodies_[index];
     body.placement = ++last_placement_;
-    const Box3 box = bounds_of(body.shape, body.own_bounds, body.world_from_body);
+    const auto* rounded = std::get_if<RoundedBox>(&body.shape);
+    body.is_box = rounded != nullptr;
+    if (body.is_box)
+        body.box_in_world = abut::placed(*rounded, body.world_from_body);
+    const Box3 box = body.is_box ? bounds_of(body.box_in_world)
+                                 : bounds_of(body.shape, body.own_bounds, body.world_from_body);
     boxes_[index] = is_empty(box) ? box : grown(box, contact_share(body.shape, body.own_bounds));
     set_changed(index);
 }

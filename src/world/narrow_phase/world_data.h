@@ -16,8 +16,10 @@ namespace abut {
 struct Body {
     BodyShape shape = RoundedBox();
     Pose pose;
-    Transform world_from_body;
     Box3 own_bounds;
+    Transform world_from_body; // from here on what queries of pairs read
+    RoundedBox box_in_world;   ///< the shape in the world, if it is a box
+    bool is_box = false;       ///< a ball and a capsule too
     BodyOptions options;
     std::uint32_t generation = 0;
     /// The body that this is a piece of, by index: itself, but for the second and later pieces of a compound.
@@ -90,7 +92,8 @@ public:
     [[nodiscard]] ResultParts& parts() { return parts_; }
 
     [[nodiscard]] PlacedBody placed(std::uint32_t index) const {
-        return {bodies_[index].shape, bodies_[index].world_from_body};
+        const Body& body = bodies_[index];
+        return {body.shape, body.world_from_body, body.is_box ? &body.box_in_world : nullptr};
     }
     [[nodiscard]] BodyId id_of(std::uint32_t index) const {
         const std::uint32_t owner = bodies_[index].owner;

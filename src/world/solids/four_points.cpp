@@ -1,7 +1,8 @@
-#include "world/contacts/four_points.h"
+#include "world/solids/four_points.h"
 
 #include <algorithm>
 #include <array>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -21,47 +22,64 @@ class FourPoints {
 
 public:
     FourPoints(std::span<const RegionPoint> points, std::span<const std::uint64_t> last)
-        : points_(points), last_(last) {}
+        : points_(points), last_(last) {
+        states_.reserve(points.size());
+        for (const RegionPoint& p : points) {
+            const auto place = std::find(last.begin(), last.end(), p.feature) - last.begin();
+            states_.push_back({static_cast<std::uint32_t>(place), false});
+        }
+    }
 
     Four choose(double rounding) {
-        double deepest = -HUGE_VAL, extent = 0;
-        for (const RegionPoint& p : points_) {
+        double deepest = -HUGE_VAL, low_x = 0, low_y = 0, high_x = 0, high_y = 0;
+        for (const RegionPoint& p : points_) { // extents are relative to the first point
+            const double x = p.x - points_[0].x, y = p.y - points_[0].y;
             deepest = std::max(deepest, p.depth);
-            extent = std::max({extent, std::abs(p.x - points_[0].x), std::abs(p.y - points_[0].y)});
+            low_x = std::min(low_x, x), high_x = std::max(high_x, x);
+            low_y = std::min(low_y, y), high_y = std::max(high_y, y);
         }
+        const double extent = std::max({-low_x, high_x, -low_y, high_y});
         const double as_deep = deepest - (last_.empty() ? 0 : std::max(rounding, kAsDeep * extent));
-        choose_anew(deepest, as_deep);
         const std::optional<Four> before = those_of_last(as_deep);
+        // No four hold more than the rectangle around all.
+        if (before && area_of(*before) >= (high_x - low_x) * (high_y - low_y) / kLoyalty)
+            return *before;
+        choose_anew(deepest, as_deep);
         return before && area_of(*before) >= area_of(chosen_) / kLoyalty ? *before : chosen_;
     }
 
 private:
     void choose_anew(double deepest, double as_deep) {
         // The first one of the last step that is as deep; else the deepest.
-        take([&](const RegionPoint& p) {
-            const std::size_t place = place_in_last(p);
-            return p.depth < as_deep      ? -HUGE_VAL
-                   : place < last_.size() ? static_cast<double>(last_.size() - place)
-                                          : std::min(p.depth - deepest, 0.0);
+        take([&](const RegionPoint& p, std::size_t i) {
+            return p.depth < as_deep ? -HUGE_VAL
+                   : was_chosen(i)   ? static_cast<double>(last_.size() - states_[i].place_in_last)
+                                     : std::min(p.depth - deepest, 0.0);
         });
         const RegionPoint& first = points_[chosen_[0]];
-        take([&](const RegionPoint& p) {
+        take([&](const RegionPoint& p, std::size_t i) {
             const double x = p.x - first.x, y = p.y - first.y;
-            return loyalty(p) * loyalty(p) * (x * x + y * y);
+            return loyalty(i) * loyalty(i) * (x * x + y * y);
         });
         const RegionPoint& second = points_[chosen_[1]];
         const auto left = [&](const RegionPoint& p) {
             return (second.x - first.x) * (p.y - first.y) - (second.y - first.y) * (p.x - first.x);
         };
-        take([&](const RegionPoint& p) { return (left(p) > 0 ? loyalty(p) : 1) * left(p); });
-        take([&](const RegionPoint& p) { return (left(p) < 0 ? loyalty(p) : 1) * -left(p); });
+        take([&](const RegionPoint& p, std::size_t i) {
+            const double here = left(p);
+            return (here > 0 ? loyalty(i) : 1) * here;
+        });
+        take([&](const RegionPoint& p, std::size_t i) {
+            const double here = left(p);
+            return (here < 0 ? loyalty(i) : 1) * -here;
+        });
     }
     /// The four points of the last step, if all are there and one of them is deep enough.
     [[nodiscard]] std::optional<Four> those_of_last(double as_deep) const {
         boost::container::static_vector<std::size_t, 5> there;
         bool is_deep = false;
         for (std::size_t i = 0; i < points_.size() && there.size() < 5; ++i)
-            if (place_in_last(points_[i]) < last_.size()) {
+            if (was_chosen(i)) {
                 there.push_back(i);
                 is_deep = is_deep || points_[i].depth >= as_deep;
             }
@@ -87,26 +105,31 @@ private:
         double most = -HUGE_VAL;
         bool found = false;
         for (std::size_t i = 0; i < points_.size(); ++i) {
-            if (std::find(chosen_.begin(), chosen_.begin() + count_, i) != chosen_.begin() + count_)
+            if (states_[i].is_taken)
                 continue;
-            const double here = merit(points_[i]);
+            const double here = merit(points_[i], i);
             if (!found || here > most)
                 best = i, most = here, found = true;
         }
-        chosen_[static_cast<std::size_t>(count_++)] = best;
+        chosen_[count_++] = best;
+        states_[best].is_taken = true;
     }
-    [[nodiscard]] std::size_t place_in_last(const RegionPoint& p) const {
-        return static_cast<std::size_t>(std::find(last_.begin(), last_.end(), p.feature) -
-                                        last_.begin());
+    /// Whether a point is one of the last step.
+    [[nodiscard]] bool was_chosen(std::size_t i) const {
+        return states_[i].place_in_last < last_.size();
     }
-    [[nodiscard]] double loyalty(const RegionPoint& p) const {
-        return place_in_last(p) < last_.size() ? kLoyalty : 1;
-    }
+    [[nodiscard]] double loyalty(std::size_t i) const { return was_chosen(i) ? kLoyalty : 1; }
+
+    struct State {
+        std::uint32_t place_in_last; ///< the size of the list if it is not there
+        bool is_taken;
+    };
 
     std::span<const RegionPoint> points_;
     std::span<const std::uint64_t> last_;
+    boost::container::small_vector<State, 32> states_; ///< of each point
     Four chosen_{};
-    std::ptrdiff_t count_ = 0;
+    std::size_t count_ = 0;
 };
 
 } // namespace
