@@ -17,12 +17,34 @@ double reach_along(const RoundedBox& box, const Vec3& direction) {
     return sum;
 }
 
+/// The result for the axis of a number: 0 to 2 are those of a, 3 to 5 those of b, then come the cross products.
+///
+/// In          overlap: along that axis. way: from a to b, positive or negative as along the axis.
+LeastOverlap overlap_along(const RoundedBox& a, const RoundedBox& b, std::size_t number,
+                           double overlap, double way) {
+    using Kind = LeastOverlap::Kind;
+    LeastOverlap result;
+    result.overlap = overlap;
+    result.kind = number < 3 ? Kind::face_a : number < 6 ? Kind::face_b : Kind::edges;
+    Vec3 along;
+    if (number < 6) {
+        along = number < 3 ? a.axis[number] : b.axis[number - 3];
+    } else {
+        const Vec3 across = cross(a.axis[(number - 6) / 3], b.axis[(number - 6) % 3]);
+        along = (1 / length(across)) * across;
+        // The axis of nearly parallel edges is rounded, and so was what the sums of the search tell about it.
+        // About the rounded axis, these sums are right.
+        result.overlap = reach_along(a, along) + reach_along(b, along) -
+                         std::abs(dot(b.centre - a.centre, along));
+    }
+    result.normal = way < 0 ? -along : along;
+    return result;
+}
+
 } // namespace
 
-// All axes share the scalar products of the boxes' own axes. They are numbered: those of a, those of b, then
-// the cross products.
+// All axes share the scalar products of the boxes' own axes.
 LeastOverlap least_overlap(const RoundedBox& a, const RoundedBox& b, double farthest) {
-    using Kind = LeastOverlap::Kind;
     const Vec3 d = b.centre - a.centre;
     // b's axes in a's frame, and their magnitudes; the vector to b along each axis of a and b.
     double turn[3][3], size[3][3], way[6];
@@ -72,21 +94,7 @@ LeastOverlap least_overlap(const RoundedBox& a, const RoundedBox& b, double fart
             if (const double unit = overlap / std::sqrt(sq); unit < least)
                 least = unit, least_way = across, best = 6 + 3 * i + k;
         }
-    LeastOverlap result;
-    result.overlap = least;
-    result.kind = best < 3 ? Kind::face_a : best < 6 ? Kind::face_b : Kind::edges;
-    Vec3 along;
-    if (best < 6) {
-        along = best < 3 ? a.axis[best] : b.axis[best - 3];
-    } else {
-        const Vec3 across = cross(a.axis[(best - 6) / 3], b.axis[(best - 6) % 3]);
-        along = (1 / length(across)) * across;
-        // The axis of nearly parallel edges is rounded, and so was what the sums above tell about it.
-        // About the rounded axis, these sums are right.
-        result.overlap = reach_along(a, along) + reach_along(b, along) - std::abs(dot(d, along));
-    }
-    result.normal = least_way < 0 ? -along : along;
-    return result;
+    return overlap_along(a, b, best, least, least_way);
 }
 
 } // namespace abut
