@@ -38,7 +38,7 @@ void add_segment_overlap(const FlatSegment& a, const FlatSegment& b,
     const Vec3 b0 = place_of(b.ends[0]), b1 = place_of(b.ends[1]);
     const double reach_sq =
         square(kNamedShare) * std::min(square(a1.x - a0.x) + square(a1.y - a0.y),
-                                      square(b1.x - b0.x) + square(b1.y - b0.y));
+                                       square(b1.x - b0.x) + square(b1.y - b0.y));
     // The end of one axis and the point of the other beside it; the place of contact divides their
     // difference as the radii.
     const auto add = [&](double x_a, double y_a, double x_b, double y_b, FeatureKind end) {
