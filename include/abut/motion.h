@@ -69,7 +69,8 @@ struct ImpactOptions {
 struct Impact {
     bool meet = false;
     /// In [0, 1]. Never later than the first contact: the motion is free up to this time. 0: the
-    /// models are in contact at the start. 1: they do not meet.
+    /// models are in contact at the start, or so near it that no time is proven free. 1: they do not
+    /// meet.
     double time = 1;
     /// A time at which `collide` finds the models in contact; it is never earlier than the first
     /// contact. Infinite if none was found (status `bound_only`, or the models do not meet).

@@ -301,8 +301,8 @@ public:
     /// convex bodies that only touch there, and part or slide in the whole step, do not meet.
     ///
     /// Accuracy    as `time_of_impact`: no time is later than the first contact, and no contact is
-    ///             missed. By default absolute_error is a millionth of half the extent of the smaller
-    ///             body at the start. A deformable meets a cylinder, cone or ellipsoid when it meets a
+    ///             missed. By default absolute_error is a millionth of the extent of the smaller
+    ///             body at the start: of two models of its box's diagonal, of others of half of that. A deformable meets a cylinder, cone or ellipsoid when it meets a
     ///             polyhedron around it, whose radii are at most 0.5 % larger (bound_only). For two
     ///             deformables it is exact; `contact_time` is less than 1e-9 after the first
     ///             contact.

@@ -22,25 +22,6 @@ namespace abut {
 
 namespace {
 
-/// Radius of a ball around the motion's centre, in the body's frame, that encloses the body.
-double reach_of(const MovingBody& body) {
-    const Transform start = body.motion.start;
-    return reach_from(body.shape, body.own_bounds, apply(inverse(start), body.motion.centre));
-}
-
-/// Half of the body's extent, whatever it turns about. Infinite for a half-space.
-double size_of(const MovingBody& body) {
-    const Box3& box = body.own_bounds;
-    return reach_from(body.shape, box, 0.5 * box.lower + 0.5 * box.upper);
-}
-
-/// The same for points of the body's core, if it is one that a ball moves along: turning about a point of
-/// the core moves no surface by more than it moves the core.
-double core_reach_of(const MovingBody& body) {
-    const auto* box = std::get_if<RoundedBox>(&body.shape);
-    return box != nullptr ? std::max(0.0, reach_of(body) - box->radius) : reach_of(body);
-}
-
 /// Rounding error of a distance or a time, relative to the quantities it was computed from. Searches
 /// with curved shapes end with a larger one.
 constexpr double kRounding = 0x1p-44;
@@ -48,16 +29,6 @@ constexpr double kCurvedRounding = 0x1p-38;
 
 bool is_curved(const MovingBody& body) {
     return std::holds_alternative<CurvedShape>(body.shape);
-}
-
-bool turns(const MovingBody& body) {
-    return body.motion.angular_velocity != Vec3{};
-}
-
-/// The largest distance of the two motions' centres, which is at the start or at the end.
-double farthest_centres(const Motion& a, const Motion& b) {
-    const Vec3 start = b.centre - a.centre;
-    return std::max(length(start), length(start + b.velocity - a.velocity));
 }
 
 class Advancement {
@@ -117,7 +88,8 @@ private:
         if (!plane_a_ && !plane_b_)
             return 0;
         const double other = plane_a_ && plane_b_ ? 0 : plane_a_ ? reach_b_ : reach_a_;
-        const double lever = farthest_centres(a_.motion, b_.motion) + other;
+        const double lever = std::min(farthest_centres(a_.motion, b_.motion) + other,
+                                      plane_a_ ? lever_beside(b_, a_) : lever_beside(a_, b_));
         if (plane_a_)
             reach_a_ = swing_a_ = lever;
         if (plane_b_)
@@ -271,9 +243,8 @@ private:
 
     /// Upper bound of the speed at which points of the two bodies approach each other.
     [[nodiscard]] double fastest_approach() const {
-        return length(a_.motion.velocity - b_.motion.velocity) +
-               swing_a_ * length(a_.motion.angular_velocity) +
-               swing_b_ * length(b_.motion.angular_velocity) + kRounding * scale_;
+        return length(a_.motion.velocity - b_.motion.velocity) + swing_a_ * turning_speed(a_) +
+               swing_b_ * turning_speed(b_) + kRounding * scale_;
     }
     /// The same for points on planes across the normal of the gap.
     [[nodiscard]] double closing_speed(const BodyGap& gap) const {

@@ -2,16 +2,9 @@
 
 #include <abut/motion.h>
 
-#include "world/narrow_phase/body.h"
+#include "world/schedule/moving_body.h"
 
 namespace abut {
-
-/// A shape and its motion. A deformable moves by its own step, whatever `motion` says.
-struct MovingBody {
-    const BodyShape& shape;
-    const Box3& own_bounds;
-    const Motion& motion;
-};
 
 /// A box that encloses a shape throughout its motion.
 Box3 swept_bounds(const MovingBody& body);

@@ -1,5 +1,6 @@
 #include "world/schedule/turning_solids.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace abut {
@@ -22,19 +23,11 @@ double off_tangent(double time, const TurningSolid& body, const Vec3& n) {
            length(cross(n, body.angular_velocity)) * body.swing;
 }
 
-} // namespace
-
-double least_room_after(double time, const TurningSolid& a, const TurningSolid& b, const Vec3& n) {
-    const Vec3 from = a.solid.centre;
-    return -highest_after(time, b, -n, from) - highest_after(time, a, n, from) -
-           off_tangent(time, a, n) - off_tangent(time, b, n);
-}
-
-double time_with_room(const TurningSolid& a, const TurningSolid& b, const Vec3& n, double margin,
-                      double horizon) {
+/// A time up to which a concave function is above 0, at most `horizon`. 0 if it is not at 0.
+template <typename Spare>
+double time_above_zero(const Spare& spare, double horizon) {
     constexpr int kMostRounds = 12;
-    constexpr double kNearEnough = 0.9; // of the longest time that the bound proves
-    const auto spare = [&](double time) { return least_room_after(time, a, b, n) - margin; };
+    constexpr double kNearEnough = 0.9; // of the longest such time
     double low = 0, at_low = spare(0), high = horizon, at_high = spare(horizon);
     if (!(at_low > 0))
         return 0;
@@ -53,6 +46,50 @@ double time_with_room(const TurningSolid& a, const TurningSolid& b, const Vec3& 
             high = time, at_high = found;
     }
     return low;
+}
+
+} // namespace
+
+double least_room_after(double time, const TurningSolid& a, const TurningSolid& b, const Vec3& n) {
+    const Vec3 from = a.solid.centre;
+    return -highest_after(time, b, -n, from) - highest_after(time, a, n, from) -
+           off_tangent(time, a, n) - off_tangent(time, b, n);
+}
+
+double time_with_room(const TurningSolid& a, const TurningSolid& b, const Vec3& n, double margin,
+                      double horizon) {
+    return time_above_zero([&](double time) { return least_room_after(time, a, b, n) - margin; },
+                           horizon);
+}
+
+double time_with_room_beside(const TurningSolid& a, const TurningSolid& b, const Vec3& n,
+                             double margin, double horizon) {
+    const Vec3 apart = b.centre - a.centre, flight = b.velocity - a.velocity;
+    const TurningSolid seen{b.solid, b.centre, flight - cross(a.angular_velocity, apart),
+                            b.angular_velocity - a.angular_velocity, b.swing};
+    const double turn_a = length(a.angular_velocity), turn_b = length(b.angular_velocity),
+                 across = length(cross(n, a.angular_velocity)), speed = length(flight);
+    const Vec3 from = a.solid.centre;
+    const double top_a = highest_after(0, a, n, from);
+    return time_above_zero(
+        [&](double time) {
+            const double lever = length(apart) + time * speed + b.swing,
+                         acceleration = turn_b * turn_b * b.swing +
+                                        across * (2 * (speed + turn_b * b.swing) + turn_a * lever);
+            return -highest_after(time, seen, -n, from) - top_a - 0.5 * time * time * acceleration -
+                   margin;
+        },
+        horizon);
+}
+
+double longest_with_room(const TurningSolid& a, const TurningSolid& b, const Vec3& n, double margin,
+                         double horizon) {
+    double time = time_with_room(a, b, n, margin, horizon);
+    if (time < horizon && a.angular_velocity != Vec3{})
+        time = std::max(time, time_with_room_beside(a, b, n, margin, horizon));
+    if (time < horizon && b.angular_velocity != Vec3{})
+        time = std::max(time, time_with_room_beside(b, a, -n, margin, horizon));
+    return time;
 }
 
 } // namespace abut

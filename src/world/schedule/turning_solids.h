@@ -28,4 +28,17 @@ double least_room_after(double time, const TurningSolid& a, const TurningSolid& 
 double time_with_room(const TurningSolid& a, const TurningSolid& b, const Vec3& n, double margin,
                       double horizon);
 
+/// The same, as a sees it: along a vector that turns with a. It proves more where a is large and b is near
+/// the place about which a turns.
+///
+/// Source      in the frame of a, a point of b at x moves at u = v - w x (x - c) with the velocity v less
+///             that of a's centre c, and its acceleration along n is at most |w_b|^2 |r| +
+///             |n x w| (2 |v| + |w| |x - c|), the latter two by Coriolis' and the centrifugal term.
+double time_with_room_beside(const TurningSolid& a, const TurningSolid& b, const Vec3& n,
+                             double margin, double horizon);
+
+/// The longest of the times that the world, a and b prove.
+double longest_with_room(const TurningSolid& a, const TurningSolid& b, const Vec3& n, double margin,
+                         double horizon);
+
 } // namespace abut

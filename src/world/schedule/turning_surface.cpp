@@ -57,7 +57,7 @@ double time_with_room(const TurningSurface& surface, const TurningSolid& solid, 
                 continue;
             const TurningSolid turning{triangle, surface.centre, surface.velocity,
                                        surface.angular_velocity, swing_of(surface.centre, each)};
-            room = std::min(room, time_with_room(turning, solid, gap.normal, margin, room));
+            room = longest_with_room(turning, solid, gap.normal, margin, room);
         }
         proven = std::max(proven, room);
         if (room < time || time == horizon || triangles->size() > kFew)

@@ -6,6 +6,7 @@
 #include <abut/world.h>
 
 #include "convex/support/support_gap.h"
+#include "math/transform.h"
 #include "tests/support/kinds_of_bodies.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
@@ -173,6 +174,50 @@ TEST(DecidedImpacts, ALargeBodyThatSpinsOverASmallOneDoesNotMeetIt) {
             }
 }
 
+TEST(DecidedImpacts, APlateOfTrianglesThatSpinsOverACurvedBodyDoesNotMeetIt) {
+    for (const double size : {10.0, 100.0, 1000.0})
+        for (const AnyShape& small : {AnyShape(Cone{{0, 0, 0}, {0, 0, -1}, .5}),
+                                      AnyShape(Cone{{.6, 0, 0}, {-.1, 0, -1}, .5}),
+                                      AnyShape(Cylinder{{{0, 0, -1}, {}}, .5}),
+                                      AnyShape(Ellipsoid{{0, 0, -.5}, {.7, .6, .5}})})
+            for (const double beside : {0.0, 0.1, 0.25, 3.0}) { // the axis about which it spins
+                SCOPED_TRACE(std::to_string(small.index()) + " under " + std::to_string(size));
+                Motion motion;
+                motion.start.translation = motion.centre = {beside, 0, 1e-3};
+                motion.angular_velocity = {0, 0, 5};
+                motion.centre.x = 0;
+                const Model plate(box_mesh({-size, -size, 0}, {size, size, 0.1 * size}));
+                EXPECT_TRUE(Flight(small, plate, motion).impacts().empty());
+                motion.velocity = {0, 0, -2e-3};
+                const auto impacts = Flight(small, plate, motion).impacts();
+                ASSERT_EQ(impacts.size(), 1U);
+                EXPECT_NE(impacts[0].impact.status, Status::bound_only);
+                EXPECT_NEAR(impacts[0].impact.time, 0.5, 1e-2);
+                EXPECT_LT(impacts[0].impact.steps, 400U);
+            }
+}
+
+TEST(DecidedImpacts, AHalfSpaceThatTurnsIsMetOnlyWhereItIs) {
+    const Vec3 half{.5, .5, .5};
+    for (const AnyShape& body :
+         {AnyShape(Sphere{{}, .5}), AnyShape(Box3{-half, half}),
+          AnyShape(Model(box_mesh(-half, half))), AnyShape(Cone{{0, 0, .5}, {0, 0, -.5}, .5})})
+        for (const double far : {1.0, 1e2, 1e4, 1e6})
+            for (const Vec3& turn : {Vec3{0, 0, 1}, Vec3{.1, 0, 0}, Vec3{0, .5, 0}}) {
+                SCOPED_TRACE(std::to_string(body.index()) + " about " + std::to_string(far));
+                World world;
+                const BodyId plane = world.add(HalfSpace{{0, 0, 1}, 0}, {});
+                Motion of_plane, of_body;
+                of_plane.angular_velocity = turn;
+                // Moves by 1 along a circle at the height 3.
+                of_body.start.translation = {1, 0, 3};
+                of_body.centre = {1, far, 3};
+                of_body.angular_velocity = {0, 0, 1 / far};
+                const BodyId id = add(world, body, of_body.start);
+                EXPECT_TRUE(world.time_of_impact({{plane, of_plane}, {id, of_body}}).empty());
+            }
+}
+
 TEST(DecidedImpacts, ASheetThatFallsFlatIntoASolidMeetsIt) {
     const Mesh sheet{{{-.1, -.1, 0}, {.1, -.1, 0}, {.1, .1, 0}, {-.1, .1, 0}},
                      {{0, 1, 2}, {0, 2, 3}}};
@@ -249,7 +294,7 @@ TEST(DecidedImpacts, TheToleranceOfAClothIsNotThatOfItsPath) {
 
 TEST(DecidedImpacts, RoomAlongADirectionIsNeverLessThanItsBound) {
     Random random(5502);
-    int useful = 0;
+    int useful = 0, seen = 0;
     for (int round = 0; round < many(400); ++round) {
         const AnyShape shape_a = shape_of_size(random, 3 + random.integer(0, 2), 1),
                        shape_b = shape_of_size(random, 3 + random.integer(0, 2), 1);
@@ -296,9 +341,29 @@ TEST(DecidedImpacts, RoomAlongADirectionIsNeverLessThanItsBound) {
             if (proven > 0) {
                 EXPECT_GE(room_at(part * proven), margin - 1e-12);
             }
+        // Along a vector that turns with one of them.
+        const auto check_beside = [&](const TurningSolid& from, const TurningSolid& other,
+                                      const Motion& motion, const Vec3& way) {
+            const double found = time_with_room_beside(from, other, way, margin, 1);
+            seen += found > 0.05 ? 1 : 0;
+            for (const double part : {0.3, 0.6, 0.9, 1.0}) {
+                const Transform from_start =
+                    compose(at(motion, part * found), inverse(at(motion, 0)));
+                const Vec3 turned = apply_linear(from_start, n);
+                const double room =
+                    separation_along(solid(shape_a, motion_a, part * found),
+                                     solid(shape_b, motion_b, part * found), turned);
+                if (found > 0) {
+                    EXPECT_GE(room, margin - 1e-12);
+                }
+            }
+        };
+        check_beside(turning_a, turning_b, motion_a, n);
+        check_beside(turning_b, turning_a, motion_b, -n);
         useful += proven > 0.05 ? 1 : 0;
     }
     EXPECT_GT(useful, many(400) / 4);
+    EXPECT_GT(seen, many(400) / 4);
 }
 
 } // namespace
