@@ -302,10 +302,10 @@ public:
     ///
     /// Accuracy    as `time_of_impact`: no time is later than the first contact, and no contact is
     ///             missed. By default absolute_error is a millionth of the extent of the smaller
-    ///             body at the start: of two models of its box's diagonal, of others of half of that. A deformable meets a cylinder, cone or ellipsoid when it meets a
-    ///             polyhedron around it, whose radii are at most 0.5 % larger (bound_only). For two
-    ///             deformables it is exact; `contact_time` is less than 1e-9 after the first
-    ///             contact.
+    ///             body at the start: of two models of its box's diagonal, of others of half of that.
+    ///             A deformable meets a cylinder, cone or ellipsoid when it meets a polyhedron around
+    ///             it, whose radii are at most 0.5 % larger (bound_only). For two deformables it is
+    ///             exact; `contact_time` is less than 1e-9 after the first contact.
     /// Errors      Error{bad_argument} as `time_of_impact`, naming the body; also if an id is not
     ///             valid, occurs twice, or is that of a deformable, and if a motion does not start where
     ///             the body is.

@@ -119,8 +119,8 @@ private:
     void see() {
         for (const PatchTriangle* t : part_) {
             // The height over a triangle that stands on edge would be known too badly.
-            constexpr double kOnEdge = 0x1p-20;
-            if (!(dot(t->normal, up_) > kOnEdge))
+            constexpr double kFacesUp = 0x1p-20;
+            if (!(dot(t->normal, up_) > kFacesUp))
                 continue;
             SeenTriangle s{};
             s.triangle = t;
