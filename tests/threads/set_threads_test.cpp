@@ -185,7 +185,8 @@ TEST(SetThreads, BesideAWorld) {
         World world;
         std::vector<BodyId> bodies;
         for (int i = 0; i < 60; ++i) {
-            const Pose pose{{0.7 * (i % 8), 0.8 * (i / 8), 0.1 * (i % 3)}};
+            const int row = i / 8;
+            const Pose pose{{0.7 * (i % 8), 0.8 * row, 0.1 * (i % 3)}};
             bodies.push_back(i % 3 == 0   ? world.add(boulder, pose)
                              : i % 3 == 1 ? world.add(knot, pose)
                                           : world.add(Sphere{{0, 0, 0}, 0.4}, pose));
@@ -211,8 +212,9 @@ TEST(SetThreads, BesideClashJobsInMemoryAndInAStore) {
     const ClashOptions clash{.clearance = 0.02};
     const auto ids = [](const std::vector<Clash>& clashes) {
         std::vector<std::pair<std::uint64_t, double>> result;
+        result.reserve(clashes.size());
         for (const Clash& each : clashes)
-            result.push_back({each.id, each.distance});
+            result.emplace_back(each.id, each.distance);
         return result;
     };
     expect_same_answers([&] { return ids(find_clashes({plant.scene}, clash).clashes); });
@@ -222,7 +224,7 @@ TEST(SetThreads, BesideClashJobsInMemoryAndInAStore) {
     expect_same_answers([&] {
         const std::string store = folder / ("a" + std::to_string(number++) + ".abut");
         (void)import_models({folder / "a.glb"}, store);
-        const auto found = ids(find_clashes(open_store(store), clash).report.clashes);
+        auto found = ids(find_clashes(open_store(store), clash).report.clashes);
         if (number == 2)
             (void)build_levels(store);
         return found;

@@ -21,7 +21,7 @@ struct ConvexFaces {
     boost::container::small_vector<std::uint32_t, 32> numbers; ///< of the vertices in the body
     Vec3 middle;                                               ///< inside
     Transform world_from_solid;
-    double reach = 0; ///< no vertex is farther from `middle`
+    double reach = 0;        ///< no vertex is farther from `middle`
     bool is_surface = false; ///< a model's, which shares no point with what lies wholly inside
 };
 

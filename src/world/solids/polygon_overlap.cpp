@@ -129,6 +129,7 @@ void add_overlap(const Face& a, const Face& b, const FacePlane& plane, double le
 
 void add_quad_overlap(std::span<const FlatCorner, 4> a, std::span<const FlatCorner, 4> b,
                       const FacePlane& plane, double least_depth, ContactCandidates& candidates) {
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): written before they are read
     std::array<OutlineCorner, 8> now, next;
     add_overlap(a, b, plane, least_depth, now.data(), next.data(), candidates);
 }

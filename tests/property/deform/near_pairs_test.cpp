@@ -303,9 +303,8 @@ TEST(NearPairs, OptionsAgainstExactArithmetic) {
         rounds_with_marks += of_a.moved.empty() ? 0 : 1;
         const auto check = [&](const std::vector<FeaturePair>& found,
                                const std::vector<PairKey>& expected) {
-            std::vector<PairKey> keys;
-            for (const FeaturePair& pair : found)
-                keys.push_back(key_of(pair));
+            std::vector<PairKey> keys(found.size());
+            std::transform(found.begin(), found.end(), keys.begin(), key_of);
             ASSERT_EQ(keys, expected);
             listed += keys.size();
         };

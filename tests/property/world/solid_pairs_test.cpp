@@ -139,6 +139,7 @@ TEST(NearPairs, WarmStartsStayWithTheirPairs) {
     WorldData bodies{WorldOptions()};
     std::vector<BodyId> ids;
     const auto somewhere = [&] { return Pose{random.in_cube(3), {1, 0, 0, 0}}; };
+    ids.reserve(60);
     for (int i = 0; i < 60; ++i)
         ids.push_back(bodies.add(shape_of(Sphere{{}, 0.5}), somewhere(), {}));
     NearPairs near(bodies);

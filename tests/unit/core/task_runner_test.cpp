@@ -135,9 +135,9 @@ TEST(TaskRunner, Sorts) {
     for (const int threads : {1, 2, 3, 5}) {
         const Handed handed(threads);
         for (const int count : {0, 1, 5000, 20011}) {
-            std::vector<int> values;
-            for (int i = 0; i < count; ++i)
-                values.push_back(random.integer(0, 1000));
+            std::vector<int> values(static_cast<std::size_t>(count));
+            for (int& value : values)
+                value = random.integer(0, 1000);
             std::vector<int> expected = values;
             std::sort(expected.begin(), expected.end());
             parallel_sort(values.begin(), values.end());
@@ -237,6 +237,7 @@ TEST(TaskRunner, SeveralThreadsAskAtOnce) {
     Handed handed(2);
     std::vector<std::thread> askers;
     std::atomic<std::size_t> sum = 0;
+    askers.reserve(4);
     for (int i = 0; i < 4; ++i)
         askers.emplace_back([&] {
             for (int round = 0; round < 50; ++round)
