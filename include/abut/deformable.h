@@ -315,8 +315,9 @@ bool is_free_of_impacts(const Deformable& a, const Deformable& b,
 ///             before it is compared. Distances are rounded, by less than 1e-12 of the features' size,
 ///             and never exceed the limit. The closest points lie on the features to rounding of
 ///             their coordinates. The normal is off by at most 1e-7 from a direction in which the
-///             features are as far apart as their distance, if that is above 1e-9 of their size;
-///             in general position by some 1e-15 of the size over the distance.
+///             features are as far apart as their distance, if that is above 1e-9 of their size, or
+///             1e-6 for nearly parallel edges and needles; in general position by some 1e-15 of the
+///             size over the distance.
 /// Errors      Error{bad_argument} if a length is negative or not finite, or if a span has another
 ///             number of entries than the surface has vertices. Error{interrupted} if the stop flag
 ///             is set.

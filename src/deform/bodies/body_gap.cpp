@@ -176,9 +176,12 @@ public:
         Box3 box;
         for (const Vec3& corner : triangle)
             extend(box, corner);
+        const double reach = nearest_of_points(triangle, limit),
+                     coordinates = max_abs(box.lower) + max_abs(box.upper);
+        const Box3 near = grown(box, reach + 0x1p-40 * (reach + coordinates));
         std::optional<PlaceNearBody> best;
         double least = limit * limit;
-        for (const std::uint32_t other : overlapping_triangles(model_, world_, grown(box, limit))) {
+        for (const std::uint32_t other : overlapping_triangles(model_, world_, near)) {
             const ClosestPoints closest =
                 triangle_triangle_distance(triangle, model_.data().world_triangle(other, world_));
             if (closest.distance_sq > least || (best && closest.distance_sq == least))
@@ -186,14 +189,26 @@ public:
             least = closest.distance_sq;
             best = place(std::sqrt(least), closest.a, closest.b, other);
         }
-        // In a solid, the deepest vertex counts.
-        if (best && best->distance > 0 && is_solid_ &&
+        // In a solid, the deepest vertex counts. What touches the boundary to rounding is not inside.
+        if (best && best->distance > kTellsNoDirection * coordinates && is_solid_ &&
             contains(model_, world_, best->point).side == Side::inside)
             return std::nullopt;
         return best;
     }
 
 private:
+    /// The distance of the nearest of some points of a triangle, at most `limit`: the triangle is no farther
+    /// away.
+    [[nodiscard]] double nearest_of_points(const Triangle& triangle, double limit) const {
+        const Vec3 middle = (1.0 / 3) * (triangle[0] + triangle[1] + triangle[2]);
+        double reach = limit;
+        for (const Vec3& p : {triangle[0], triangle[1], triangle[2], middle}) {
+            const Nearest found = nearest(model_, world_, p, {.upper_bound = reach});
+            if (found.status != Status::bound_only)
+                reach = std::min(reach, found.distance);
+        }
+        return reach;
+    }
     /// In: a signed distance. Where the points coincide to rounding, the triangle's normal is taken.
     [[nodiscard]] PlaceNearBody place(double distance, const Vec3& point, const Vec3& on_body,
                                       std::uint32_t triangle) const {

@@ -16,6 +16,8 @@
 #include <optional>
 #include <span>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 namespace abut {
 
@@ -47,8 +49,9 @@ public:
             return std::nullopt;
         return contact(Feature::vertex, vertex, {vertex, vertex, vertex}, {1, 0, 0}, limit, *place);
     }
-    /// Nothing if the triangle is nearest at a vertex.
-    [[nodiscard]] std::optional<SurfaceContact> of_triangle(std::uint32_t id) const {
+    /// Appends the contact of a triangle or of the edge that holds its nearest place; nothing if that
+    /// is a vertex. Of a triangle that the rules leave out, each edge stands for itself.
+    void append_of_triangle(std::uint32_t id, std::vector<SurfaceContact>& list) const {
         const IndexTriangle& t = surface_.triangles[id];
         // At most that of the triangle, which has all vertices of its edges.
         const double most = rules_.limit(t, {});
@@ -57,9 +60,14 @@ public:
         for (const Vec3& corner : corners)
             extend(box, corner);
         if (!overlap(box, body_.bounds(), most))
-            return std::nullopt;
-        const auto place = body_.of_triangle(corners, most);
-        return place ? inside(id, corners, *place) : std::nullopt;
+            return;
+        if (!rules_.admit(t, {})) {
+            for (std::size_t k = 0; k < 3; ++k)
+                append_of_edge({t[k], t[(k + 1) % 3]}, list);
+        } else if (const auto place = body_.of_triangle(corners, most)) {
+            if (const auto contact = inside(id, corners, *place))
+                list.push_back(*contact);
+        }
     }
 
 private:
@@ -69,6 +77,22 @@ private:
     [[nodiscard]] const Vec3& at(std::uint32_t vertex) const {
         const MovingVertex& v = surface_.vertices[vertex];
         return at_end_ ? v.end : v.start;
+    }
+    void append_of_edge(std::array<std::uint32_t, 2> edge,
+                        std::vector<SurfaceContact>& list) const {
+        if (edge[1] < edge[0])
+            std::swap(edge[0], edge[1]);
+        const double limit = rules_.limit(edge, {});
+        if (edge[0] == edge[1] || !rules_.admit(edge, {}))
+            return;
+        const Vec3 &p = at(edge[0]), &q = at(edge[1]), along = q - p;
+        const auto place = body_.of_triangle({p, q, q}, limit);
+        if (!place)
+            return;
+        const double share = dot(place->point - p, along) / length_sq(along);
+        if (share > kOnBorder && share < 1 - kOnBorder) // not a vertex, nor without length
+            list.push_back(contact(Feature::edge, edge_id(edge), {edge[0], edge[1], edge[1]},
+                                   {1 - share, share, 0}, limit, *place));
     }
     /// The contact of the edge or face that has the place in its inside; nothing at a vertex.
     [[nodiscard]] std::optional<SurfaceContact> inside(std::uint32_t id, const Triangle& corners,
@@ -134,8 +158,8 @@ std::vector<bool> used_vertices(const DeformableData& surface) {
 }
 
 /// Appends the contacts of features 0 to count, in parallel, in their order.
-template <typename ContactOf>
-void find_contacts(std::size_t count, const ContactOf& contact_of,
+template <typename Append>
+void find_contacts(std::size_t count, const Append& append_contacts,
                    std::vector<SurfaceContact>& list) {
     const std::size_t chunks = (count + kPartsAtOnce - 1) / kPartsAtOnce;
     std::vector<std::vector<SurfaceContact>> parts(chunks);
@@ -143,8 +167,7 @@ void find_contacts(std::size_t count, const ContactOf& contact_of,
         poll_stop();
         const std::size_t end = std::min(count, (chunk + 1) * kPartsAtOnce);
         for (std::size_t i = chunk * kPartsAtOnce; i < end; ++i)
-            if (const auto contact = contact_of(static_cast<std::uint32_t>(i)))
-                parts[chunk].push_back(*contact);
+            append_contacts(static_cast<std::uint32_t>(i), parts[chunk]);
     });
     for (const std::vector<SurfaceContact>& part : parts)
         list.insert(list.end(), part.begin(), part.end());
@@ -166,13 +189,20 @@ std::vector<SurfaceContact> within(const Deformable& surface, const RigidShape& 
     std::vector<SurfaceContact> list;
     find_contacts(
         data.vertices.size(),
-        [&](std::uint32_t vertex) {
-            return used[vertex] ? search.of_vertex(vertex) : std::optional<SurfaceContact>();
+        [&](std::uint32_t vertex, std::vector<SurfaceContact>& part) {
+            if (!used[vertex])
+                return;
+            if (const auto contact = search.of_vertex(vertex))
+                part.push_back(*contact);
         },
         list);
     const auto vertices = static_cast<std::ptrdiff_t>(list.size());
     find_contacts(
-        data.triangles.size(), [&](std::uint32_t id) { return search.of_triangle(id); }, list);
+        data.triangles.size(),
+        [&](std::uint32_t id, std::vector<SurfaceContact>& part) {
+            search.append_of_triangle(id, part);
+        },
+        list);
     // Triangles that share an edge may both be nearest there. The nearer place is kept.
     const auto key = [](const SurfaceContact& c) {
         return std::tuple(static_cast<int>(c.feature), c.id);

@@ -5,6 +5,7 @@
 #include <bit>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <string>
 
 namespace abut {
@@ -88,7 +89,7 @@ ConstraintColours grouped(std::span<const std::uint32_t> colours) {
 
 /// The vertices of pairs. Those of the second surface are moved up by `offset`.
 std::vector<std::array<std::uint32_t, 4>> vertices_of(std::span<const FeaturePair> pairs,
-                                                      std::uint32_t offset) {
+                                                      std::optional<std::uint32_t> vertices_a) {
     std::vector<std::array<std::uint32_t, 4>> list;
     list.reserve(pairs.size());
     for (const FeaturePair& pair : pairs) {
@@ -96,10 +97,10 @@ std::vector<std::array<std::uint32_t, 4>> vertices_of(std::span<const FeaturePai
         std::array<std::uint32_t, 4> vertices = pair.vertices;
         for (std::size_t i = 0; i < 4; ++i) {
             const bool is_of_b = (i < first) == pair.face_first;
-            if (vertices[i] > kMostVertex || (!is_of_b && offset != 0 && vertices[i] >= offset))
+            if (vertices[i] > kMostVertex || (!is_of_b && vertices_a && vertices[i] >= *vertices_a))
                 throw Error(ErrorCode::bad_argument,
                             "a pair has vertex " + std::to_string(vertices[i]));
-            vertices[i] += is_of_b ? offset : 0;
+            vertices[i] += is_of_b ? vertices_a.value_or(0) : 0;
         }
         list.push_back(vertices);
     }
@@ -128,7 +129,7 @@ ConstraintColours colour_constraints(std::span<const std::array<std::uint32_t, 4
 
 ConstraintColours colour_constraints(std::span<const FeaturePair> pairs,
                                      std::span<const std::uint8_t> fixed) {
-    return coloured<4>(vertices_of(pairs, 0), fixed);
+    return coloured<4>(vertices_of(pairs, std::nullopt), fixed);
 }
 ConstraintColours colour_constraints(std::span<const FeaturePair> pairs, std::size_t vertices_a,
                                      std::span<const std::uint8_t> fixed) {

@@ -55,7 +55,7 @@ PartingMotion motion_along(const Vec3& direction, const MetTriangles& met,
             if (const double height =
                     dot(direction, corner - solid.centre) - dot(direction, lowest);
                 height > motion.length)
-                motion.length = height, motion.triangle = each.number;
+                motion.length = height;
     return motion;
 }
 
@@ -115,17 +115,18 @@ std::optional<PartingMotion> find_parting_motion(const PlacedModel& model,
     try_along(normalized_or_zero(over), rounding), try_along(-normalized_or_zero(over), rounding);
     try_along(known.direction, rounding);
     constexpr double kSame = 1 + 0x1p-30;
-    // A witness point must lie on the surface.
-    const auto is_on_surface = [&](const PartingMotion& motion) {
-        const Vec3 opposite = motion.point + motion.length * motion.direction;
-        return std::ranges::any_of(met, [&](const MetTriangle& each) {
+    const bool is_known = best && best->direction == known.direction;
+    if (best) { // a witness point must lie on the surface
+        const Vec3 opposite = best->point + best->length * best->direction;
+        const auto holds_it = [&](const MetTriangle& each) {
             return point_triangle_distance(opposite, each.corners).distance_sq <=
                    touching * touching;
-        });
-    };
-    const bool is_known = best && best->direction == known.direction;
-    if (best && !is_on_surface(*best))
-        best = ending_in_touch(*best, met, solid, touching);
+        };
+        if (const auto found = std::ranges::find_if(met, holds_it); found != met.end())
+            best->triangle = found->number;
+        else
+            best = ending_in_touch(*best, met, solid, touching);
+    }
     return is_known && best && best->length <= known.length * kSame + rounding ? std::nullopt
                                                                                : best;
 }

@@ -13,7 +13,7 @@ struct PartingMotion {
     Vec3 direction;             ///< unit vector from the surface to the solid, which moves along it
     double length = 0;          ///< not negative
     Vec3 point;                 ///< of the solid; after the motion, it lies on the surface
-    std::uint32_t triangle = 0; ///< the one that needs the longest motion
+    std::uint32_t triangle = 0; ///< the one that holds that place
 };
 
 /// Finds a short motion that parts a solid from all triangles that it meets: along one of their normals,

@@ -169,6 +169,7 @@ TEST(ConstraintColours, Errors) {
     pair.vertices = {4, 0, 1, 2};
     const std::vector<FeaturePair> pairs{pair};
     EXPECT_TRUE(fails([&] { colour_constraints(pairs, 4); }));
+    EXPECT_TRUE(fails([&] { colour_constraints(pairs, std::size_t{0}); }));
     EXPECT_FALSE(fails([&] { colour_constraints(pairs, 5); }));
 }
 

@@ -256,7 +256,7 @@ TEST(SurfaceContacts, SmallBodiesInTheMiddleOfATriangle) {
 /// Thickness, groups and marks select contacts as they select pairs.
 TEST(SurfaceContacts, RulesSelectContacts) {
     Random random(8);
-    std::size_t all = 0, listed = 0;
+    std::size_t all = 0, listed = 0, alone = 0;
     for (int round = 0; round < many(20); ++round) {
         const MovingMesh moving = crumpled_sheet(random, 5);
         const Deformable surface = moving.deformable();
@@ -291,17 +291,81 @@ TEST(SurfaceContacts, RulesSelectContacts) {
             if (c.distance <= c.limit && (mask & 1) != 0 && has_moved)
                 expected.push_back(c);
         }
-        ASSERT_EQ(found.size(), expected.size()) << body.name;
-        for (std::size_t i = 0; i < found.size(); ++i) {
-            EXPECT_EQ(std::tuple(found[i].feature, found[i].id, found[i].limit),
-                      std::tuple(expected[i].feature, expected[i].id, expected[i].limit));
-            EXPECT_NEAR(found[i].distance, expected[i].distance, kOff);
+        const auto key = [](const SurfaceContact& c) {
+            return std::tuple(static_cast<int>(c.feature), c.id);
+        };
+        std::map<std::tuple<int, std::uint32_t>, SurfaceContact> by_part;
+        for (const SurfaceContact& c : found)
+            by_part[key(c)] = c;
+        ASSERT_EQ(by_part.size(), found.size());
+        for (const SurfaceContact& c : expected) {
+            ASSERT_TRUE(by_part.contains(key(c))) << body.name;
+            const SurfaceContact& here = by_part[key(c)];
+            EXPECT_EQ(here.limit, c.limit);
+            EXPECT_NEAR(here.distance, c.distance, kOff);
+            by_part.erase(key(c));
+        }
+        for (const auto& [part, c] : by_part) { // edges of triangles that are left out
+            EXPECT_EQ(c.feature, Feature::edge);
+            EXPECT_LE(c.distance, c.limit);
+            EXPECT_EQ(masks[c.vertices[0]] & masks[c.vertices[1]] & 1U, 1U);
+            EXPECT_TRUE(moved[c.vertices[0]] == 1 || moved[c.vertices[1]] == 1);
+            ++alone;
         }
         listed += found.size();
     }
     std::cout << listed << " of " << all << " contacts\n";
     EXPECT_GT(listed, all / 20);
     EXPECT_LT(listed, all);
+    EXPECT_GT(alone, 0U);
+}
+
+TEST(SurfaceContacts, ATriangleThatTouchesAModelIsNear) {
+    Random random(9);
+    const Model cube(box_mesh({-1, -1, -1}, {1, 1, 1}));
+    int listed = 0;
+    for (int round = 0; round < many(300); ++round) {
+        // A plane through a corner, an edge or a face of the cube, with the triangle's inside there.
+        const int kind = random.integer(0, 2);
+        const Vec3 normal = normalized_or_zero(
+            kind == 0   ? Vec3{random.uniform(.2, 1), random.uniform(.2, 1), random.uniform(.2, 1)}
+            : kind == 1 ? Vec3{random.uniform(.2, 1), random.uniform(.2, 1), 0}
+                        : Vec3{0, 0, 1});
+        const double gap = random.chance(0.4) ? 0 : std::pow(10, -random.uniform(13, 17));
+        const Vec3 at = kind == 2 ? Vec3{0, 0, 1} : Vec3{1, 1, kind == 0 ? 1.0 : 0.0},
+                   u = perpendicular(normal), w = cross(normal, u);
+        const Pose pose = random.pose(0);
+        const Transform world = pose;
+        Mesh triangle;
+        const double turn = random.uniform(0, 6);
+        for (int k = 0; k < 3; ++k) {
+            const double angle = turn + 2 * k;
+            triangle.positions.push_back(apply(world, at + gap * normal + 8 * std::cos(angle) * u +
+                                                          8 * std::sin(angle) * w));
+        }
+        triangle.triangles = {{0, 1, 2}};
+        const auto found = within(Deformable(triangle), cube, pose, 0.1);
+        ASSERT_EQ(found.size(), 1U) << kind << " at " << gap;
+        EXPECT_NEAR(found[0].distance, 0, 1e-13);
+        ++listed;
+    }
+    EXPECT_EQ(listed, many(300));
+}
+
+TEST(SurfaceContacts, EdgesOfATriangleThatMasksLeaveOutStandForThemselves) {
+    // The ball is nearest to the triangle's inside, and farther from the edge of the other two vertices.
+    const Deformable surface(Mesh{{{0, -8, 1.5}, {-4, .2, 1.5}, {4, .2, 1.5}}, {{0, 1, 2}}});
+    const std::vector<std::uint32_t> masks{0, 1, 1};
+    const auto found = within(surface, Sphere{{}, 1}, {}, 0.6, {.vertices = {.masks = masks}});
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].feature, Feature::edge);
+    EXPECT_EQ(found[0].vertices[0], 1U);
+    EXPECT_EQ(found[0].vertices[1], 2U);
+    EXPECT_NEAR(found[0].weights[0], 0.5, 1e-12);
+    EXPECT_NEAR(found[0].distance, std::hypot(.2, 1.5) - 1, 1e-12);
+    const auto all = within(surface, Sphere{{}, 1}, {}, 0.6);
+    ASSERT_EQ(all.size(), 1U);
+    EXPECT_EQ(all[0].feature, Feature::face);
 }
 
 TEST(SurfaceContacts, Errors) {

@@ -4,6 +4,8 @@
 #include <abut/vector.h>
 #include <abut/world.h>
 
+#include "geometry/point_triangle_distance.h"
+#include "math/transform.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 #include "tests/support/shapes.h"
@@ -138,6 +140,12 @@ TEST(ShallowDepths, SolidsThatReachOverABorderLeaveUpwards) {
             const Vec3 on_surface = apply(inverse(Transform(frame)), found[0].point_a);
             EXPECT_NEAR(on_surface.z, 0, 2e-13);
             EXPECT_LE(std::max(std::abs(on_surface.x), std::abs(on_surface.y)), 2 + 1e-12);
+            const Mesh& mesh = tops.at(top).mesh();
+            Triangle named{};
+            for (std::size_t k = 0; k < 3; ++k)
+                named[k] =
+                    apply(Transform(frame), mesh.positions[mesh.triangles[found[0].triangle_a][k]]);
+            EXPECT_LE(nearest_on_triangle(found[0].point_a, named).distance_sq, 1e-24);
             Pose away = placed_in_frame(frame, on_top);
             away.translation = away.translation + (1e-11 - found[0].distance) * found[0].normal;
             world.move(body, away);
