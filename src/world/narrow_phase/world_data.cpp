@@ -76,10 +76,10 @@ BodyId WorldData::add(const std::vector<BodyShape>& pieces, const Pose& pose,
                       const BodyOptions& options) {
     const BodyId id = add(pieces.front(), pose, options);
     has_pieces_ = has_pieces_ || pieces.size() > 1;
+    const Transform world_from_body = bodies_[id.index].world_from_body; // the list may move
     std::uint32_t last = id.index;
     for (std::size_t i = 1; i < pieces.size(); ++i) {
-        const std::uint32_t index =
-            add_piece(pieces[i], pose, bodies_[id.index].world_from_body, options);
+        const std::uint32_t index = add_piece(pieces[i], pose, world_from_body, options);
         bodies_[index].owner = id.index, bodies_[index].piece = static_cast<std::uint32_t>(i);
         bodies_[index].next_piece = id.index;
         bodies_[last].next_piece = index;
