@@ -134,7 +134,7 @@ struct FeaturePair {
 struct NearVertices {
     /// Lengths, at least 0. A feature is as thick as the thickest of its vertices. Empty: 0.
     std::span<const double> thickness{};
-    /// Bit sets: the groups of a vertex. A feature belongs to those of all its vertices. Empty: 1.
+    /// Bit sets: the groups of a vertex. A feature belongs to every group that one of its vertices belongs to. Empty: 1.
     std::span<const std::uint32_t> groups{};
     /// Bit sets: the groups that a vertex meets. A feature meets those that all its vertices meet.
     /// Empty: all. As for bodies of a `World`, both features must agree.

@@ -37,8 +37,8 @@ using TaskRunner =
 /// Reading files, imports into a store, levels of detail and what a walk loads ahead keep threads of
 /// their own.
 ///
-/// In          threads: how many tasks a query hands in at most at once. The function may throw if it takes
-///             no tasks, and only while none of them runs: the thread that asks then does the work.
+/// In          threads: how many tasks a query hands in at most at once. The function may throw, or leave
+///             tasks out, but only while none of them runs: the thread that asks does what is left.
 /// Errors      Error{bad_argument}: threads below 1.
 void set_task_runner(TaskRunner run, int threads);
 

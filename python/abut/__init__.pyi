@@ -2775,7 +2775,7 @@ class NearVertices:
     """What a query of near features knows of the vertices of a surface: arrays with an entry for each vertex.
 
     thickness  lengths; a feature is as thick as the thickest of its vertices. None: 0
-    groups     bit sets; a feature belongs to the groups of all its vertices. None: 1
+    groups     bit sets; a feature belongs to every group that one of its vertices belongs to. None: 1
     masks      bit sets; a feature meets the groups that all its vertices meet. None: all
     moved      true for vertices that have moved: only pairs with such a vertex are listed. None: all pairs
     """
@@ -3967,7 +3967,7 @@ class StoredProperty:
         """how many different ones"""
 
 class SurfaceContact:
-    """A point of a surface that is near a rigid body, or in it. The gradient of the distance by vertices[i] is weights[i] * normal."""
+    """A point of a surface that is near a rigid body, or in it. Outside of the body the gradient of the distance by vertices[i] is weights[i] * normal."""
     dtype: np.dtype[Any]
     @property
     def feature(self) -> Feature:

@@ -61,9 +61,9 @@ void TaskPool::run(std::size_t count, const std::function<void()>& work) const {
     };
     try {
         runner_(std::min(count, threads_), task);
-    } catch (...) { // it takes no tasks
-        task(0);
+    } catch (...) { // NOLINT(bugprone-empty-catch): it takes no tasks, so they are done here
     }
+    task(0); // what is left; nothing, if the tasks have run
     if (job.failure)
         std::rethrow_exception(job.failure);
 }

@@ -25,7 +25,8 @@ public:
 
     /// How many tasks it takes at once.
     [[nodiscard]] std::size_t threads() const { return threads_; }
-    /// Calls work() in at most `count` tasks, and returns when all have ended.
+    /// Calls work() in at most `count` tasks, and returns when all have ended. Then calls it once more
+    /// here, for what a pool that takes no tasks has left: work() does what is not done yet.
     ///
     /// Errors      if work() throws, one of the exceptions.
     void run(std::size_t count, const std::function<void()>& work) const;

@@ -163,7 +163,8 @@ void bind_near_vertices(py::module_& module) {
         "for "
         "each vertex.\n\n"
         "thickness  lengths; a feature is as thick as the thickest of its vertices. None: 0\n"
-        "groups     bit sets; a feature belongs to the groups of all its vertices. None: 1\n"
+        "groups     bit sets; a feature belongs to every group that one of its vertices belongs "
+        "to. None: 1\n"
         "masks      bit sets; a feature meets the groups that all its vertices meet. None: all\n"
         "moved      true for vertices that have moved: only pairs with such a vertex are listed. "
         "None: all pairs")
@@ -253,9 +254,11 @@ void bind_near_results(py::module_& module) {
         .field("point_b", &FeaturePair::point_b, "closest point of b")
         .field("normal", &FeaturePair::normal, "unit vector from point_b to point_a")
         .done();
-    RecordBinder<SurfaceContact>(module, "SurfaceContact",
-                                 "A point of a surface that is near a rigid body, or in it. The "
-                                 "gradient of the distance by vertices[i] is weights[i] * normal.")
+    RecordBinder<SurfaceContact>(
+        module, "SurfaceContact",
+        "A point of a surface that is near a rigid body, or in it. Outside "
+        "of the body the gradient of the distance by vertices[i] is "
+        "weights[i] * normal.")
         .field("feature", &SurfaceContact::feature,
                "Feature: the part of the surface that has the point in its inside")
         .field("id", &SurfaceContact::id, "vertex, row of Deformable.edges or of Deformable.faces")

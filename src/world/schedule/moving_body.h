@@ -3,7 +3,6 @@
 #include <abut/motion.h>
 
 #include "math/transform.h"
-#include "rigid/motion/motion_bounds.h"
 #include "world/narrow_phase/narrow_phase.h"
 
 #include <algorithm>

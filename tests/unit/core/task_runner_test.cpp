@@ -199,15 +199,15 @@ TEST(TaskRunner, APoolThatTakesNoTasksLeavesTheWorkToTheThreadThatAsks) {
     int calls = 0;
     set_task_runner(
         [&](std::size_t, const auto&) {
-            ++calls;
-            throw std::runtime_error("the queue is full");
+            if (++calls % 2 == 0)
+                throw std::runtime_error("the queue is full");
         },
         4);
     World world = crowd();
     const auto found = world.contact_manifolds(0.01);
     set_task_runner({}, 0);
     expect_equal(found, expected);
-    EXPECT_GT(calls, 0);
+    EXPECT_GT(calls, 1);
 }
 
 TEST(TaskRunner, FaultsAndStopsReachTheCaller) {
