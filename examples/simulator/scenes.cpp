@@ -116,7 +116,7 @@ PairOfMeshes ball_on_disc() {
 
 PairOfMeshes pair_of_bunnies(abut::Mesh mesh) {
     const Pose lower{{0, 0, 0.3403}, {0.9134, 0.0967, 0.0893, -0.3853}},
-        upper{{-0.242, 0.027, 1.4}, {-0.0266, -0.9969, -0.0464, -0.058}};
+        upper{{-0.24, 0.027, 1.4}, {-0.0266, -0.9969, -0.0464, -0.058}};
     const Material soft{.friction = 0.6, .rolling = 0.005};
     const abut::Mesh bunny = scaled(std::move(mesh));
     return {{bunny, bunny}, {lower, upper}, soft};

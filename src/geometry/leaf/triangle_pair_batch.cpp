@@ -8,10 +8,39 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
-/// Squared distance of the segments p + s u and q + t v, s and t in [0, 1]. In: uu = u.u, vv = v.v.
+/// Keeps the least squared distance.
 template <class D>
-HWY_INLINE hn::Vec<D> segment_segment_sq(D d, const Lanes3<D>& p, const Lanes3<D>& u, hn::Vec<D> uu,
-                                         const Lanes3<D>& q, const Lanes3<D>& v, hn::Vec<D> vv) {
+struct LeastSquare {
+    hn::Vec<D> sq;
+
+    HWY_INLINE explicit LeastSquare(D d) : sq(hn::Inf(d)) {}
+    HWY_INLINE void take(hn::Vec<D> other_sq, const Lanes3<D>&, const Lanes3<D>&) {
+        sq = hn::Min(sq, other_sq);
+    }
+};
+
+/// Keeps the points with the least squared distance: the one on a, and the gap from it to the one on b.
+template <class D>
+struct NearestPoints {
+    hn::Vec<D> sq;
+    Lanes3<D> on_a, gap;
+
+    HWY_INLINE explicit NearestPoints(D d)
+        : sq(hn::Inf(d)), on_a{hn::Zero(d), hn::Zero(d), hn::Zero(d)}, gap(on_a) {}
+    HWY_INLINE void take(hn::Vec<D> other_sq, const Lanes3<D>& other_on_a,
+                         const Lanes3<D>& other_gap) {
+        const auto nearer = hn::Lt(other_sq, sq);
+        sq = hn::IfThenElse(nearer, other_sq, sq);
+        on_a = if_then_else(nearer, other_on_a, on_a);
+        gap = if_then_else(nearer, other_gap, gap);
+    }
+};
+
+/// Takes the nearest points of the segments p + s u of a and q + t v of b, s and t in [0, 1]. In: uu
+/// = u.u, vv = v.v.
+template <class D, class Best>
+HWY_INLINE void take_segments(D d, const Lanes3<D>& p, const Lanes3<D>& u, hn::Vec<D> uu,
+                              const Lanes3<D>& q, const Lanes3<D>& v, hn::Vec<D> vv, Best& best) {
     const auto zero = hn::Zero(d), one = hn::Set(d, 1.0);
     const auto clamp = [&](auto x) HWY_ATTR { return hn::Min(hn::Max(x, zero), one); };
     // A zero-length segment has parameter 0: 0 / 1.
@@ -29,7 +58,7 @@ HWY_INLINE hn::Vec<D> segment_segment_sq(D d, const Lanes3<D>& p, const Lanes3<D
     const auto t = clamp(hn::Div(hn::MulSub(s0, uv, dot(r, v)), safe_vv));
     const auto s = clamp(hn::Div(hn::MulAdd(t, uv, dot(r, u)), safe_uu));
     const Lanes3<D> gap = minus_scaled(minus_scaled(r, s, u), hn::Neg(t), v);
-    return dot(gap, gap);
+    best.take(dot(gap, gap), minus_scaled(p, hn::Neg(s), u), gap);
 }
 
 /// A face, given from the start of its longest edge u: there, a needle's foot is well determined
@@ -65,10 +94,16 @@ HWY_INLINE Face<D> face(D d, const Lanes3<D> (&p)[3], const Lanes3<D> (&e)[3],
     return f;
 }
 
-/// Squared distance of a point to a face if the foot lies within the face and is nearer than
-/// `other`; otherwise `other`.
+/// A point over a face: the gap from its foot to it, and the square of that. Infinite if the foot
+/// lies outside the face.
 template <class D>
-HWY_INLINE hn::Vec<D> vertex_face_sq(D d, const Lanes3<D>& p, const Face<D>& f, hn::Vec<D> other) {
+struct Foot {
+    hn::Vec<D> sq;
+    Lanes3<D> gap;
+};
+
+template <class D>
+HWY_INLINE Foot<D> foot(D d, const Lanes3<D>& p, const Face<D>& f) {
     const auto zero = hn::Zero(d);
     const Lanes3<D> w = sub(p, f.origin);
     const auto safe_nn = hn::IfThenElse(hn::Gt(f.nn, zero), f.nn, hn::Set(d, 1.0));
@@ -80,12 +115,12 @@ HWY_INLINE hn::Vec<D> vertex_face_sq(D d, const Lanes3<D>& p, const Face<D>& f, 
         hn::And(hn::And(hn::Ge(g, zero), hn::Ge(h, zero)),
                 hn::And(hn::Le(hn::Add(g, h), hn::Set(d, 1.0)), hn::Gt(f.nn, zero)));
     const Lanes3<D> gap = minus_scaled(rest, g, f.u);
-    return hn::IfThenElse(inside, hn::Min(other, dot(gap, gap)), other);
+    return {hn::IfThenElse(inside, dot(gap, gap), hn::Inf(d)), gap};
 }
 
-template <class D>
-HWY_INLINE void distance_sq_lanes(D d, const TrianglePairBatch& pairs, std::size_t lane,
-                                  double* result) {
+/// The nearest features of the pairs from a lane on.
+template <class Best, class D>
+HWY_INLINE Best nearest(D d, const TrianglePairBatch& pairs, std::size_t lane) {
     const Lanes3<D> a_v[3] = {load3(d, pairs.a[0], lane), load3(d, pairs.a[1], lane),
                               load3(d, pairs.a[2], lane)};
     const Lanes3<D> b_v[3] = {load3(d, pairs.b[0], lane), load3(d, pairs.b[1], lane),
@@ -98,24 +133,38 @@ HWY_INLINE void distance_sq_lanes(D d, const TrianglePairBatch& pairs, std::size
         a_ee[i] = dot(a_e[i], a_e[i]);
         b_ee[i] = dot(b_e[i], b_e[i]);
     }
-    auto best = segment_segment_sq(d, a_v[0], a_e[0], a_ee[0], b_v[0], b_e[0], b_ee[0]);
+    Best best(d);
     for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = i == 0 ? 1 : 0; j < 3; ++j)
-            best = hn::Min(best,
-                           segment_segment_sq(d, a_v[i], a_e[i], a_ee[i], b_v[j], b_e[j], b_ee[j]));
+        for (std::size_t j = 0; j < 3; ++j)
+            take_segments(d, a_v[i], a_e[i], a_ee[i], b_v[j], b_e[j], b_ee[j], best);
 
     const Face<D> face_a = face(d, a_v, a_e, a_ee), face_b = face(d, b_v, b_e, b_ee);
     for (std::size_t i = 0; i < 3; ++i) {
-        best = vertex_face_sq(d, b_v[i], face_a, best);
-        best = vertex_face_sq(d, a_v[i], face_b, best);
+        const Foot<D> on_a = foot(d, b_v[i], face_a), on_b = foot(d, a_v[i], face_b);
+        best.take(on_a.sq, sub(b_v[i], on_a.gap), on_a.gap);
+        best.take(on_b.sq, a_v[i], {hn::Neg(on_b.gap.x), hn::Neg(on_b.gap.y), hn::Neg(on_b.gap.z)});
     }
-    hn::StoreU(best, d, result + lane);
+    return best;
 }
 
 template <class D>
 HWY_INLINE void distance_sq_with(D d, const TrianglePairBatch& pairs, double* result) {
     for (std::size_t lane = 0; lane < TrianglePairBatch::kLanes; lane += hn::Lanes(d))
-        distance_sq_lanes(d, pairs, lane, result);
+        hn::StoreU(nearest<LeastSquare<D>>(d, pairs, lane).sq, d, result + lane);
+}
+
+template <class D>
+HWY_INLINE void nearest_points_with(D d, const TrianglePairBatch& pairs, PairPoints& result) {
+    for (std::size_t lane = 0; lane < TrianglePairBatch::kLanes; lane += hn::Lanes(d)) {
+        const auto best = nearest<NearestPoints<D>>(d, pairs, lane);
+        hn::StoreU(best.sq, d, result.distance_sq + lane);
+        hn::StoreU(best.on_a.x, d, result.on_a[0] + lane);
+        hn::StoreU(best.on_a.y, d, result.on_a[1] + lane);
+        hn::StoreU(best.on_a.z, d, result.on_a[2] + lane);
+        hn::StoreU(best.gap.x, d, result.gap[0] + lane);
+        hn::StoreU(best.gap.y, d, result.gap[1] + lane);
+        hn::StoreU(best.gap.z, d, result.gap[2] + lane);
+    }
 }
 
 using PairLanes = hn::CappedTag<double, TrianglePairBatch::kLanes>;
@@ -127,6 +176,12 @@ void distance_sq_simd(const TrianglePairBatch& pairs, double* result) {
 void distance_sq_one(const TrianglePairBatch& pairs, double* result) {
     distance_sq_with(OneLane(), pairs, result);
 }
+void nearest_points_simd(const TrianglePairBatch& pairs, PairPoints& result) {
+    nearest_points_with(PairLanes(), pairs, result);
+}
+void nearest_points_one(const TrianglePairBatch& pairs, PairPoints& result) {
+    nearest_points_with(OneLane(), pairs, result);
+}
 
 } // namespace abut::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -135,6 +190,7 @@ HWY_AFTER_NAMESPACE();
 namespace abut {
 
 HWY_EXPORT(distance_sq_simd);
+HWY_EXPORT(nearest_points_simd);
 
 void distance_sq(const TrianglePairBatch& pairs, double (&result)[TrianglePairBatch::kLanes]) {
     HWY_DYNAMIC_DISPATCH(distance_sq_simd)(pairs, result);
@@ -142,6 +198,13 @@ void distance_sq(const TrianglePairBatch& pairs, double (&result)[TrianglePairBa
 void distance_sq_reference(const TrianglePairBatch& pairs,
                            double (&result)[TrianglePairBatch::kLanes]) {
     HWY_STATIC_DISPATCH(distance_sq_one)(pairs, result);
+}
+
+void nearest_points(const TrianglePairBatch& pairs, PairPoints& result) {
+    HWY_DYNAMIC_DISPATCH(nearest_points_simd)(pairs, result);
+}
+void nearest_points_reference(const TrianglePairBatch& pairs, PairPoints& result) {
+    HWY_STATIC_DISPATCH(nearest_points_one)(pairs, result);
 }
 
 } // namespace abut

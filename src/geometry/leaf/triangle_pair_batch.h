@@ -40,7 +40,6 @@ private:
 ///
 /// where r is the largest difference of a vertex of a and one of b, and u and v are the longest
 /// edges. docs/distance.md has the proof. The largest error found in trials is 2 % of the bound.
-/// edges. docs/distance.md has the proof. The largest error found in trials is 2 % of the bound.
 constexpr double kTrianglePairError = 32 * 0x1p-53, kTrianglePairUnderflow = 0x1p-240;
 
 /// Squared distance of the pair in each lane. For a crossing pair, a rounding residue may be
@@ -54,6 +53,26 @@ constexpr double kTrianglePairError = 32 * 0x1p-53, kTrianglePairUnderflow = 0x1
 ///             closest points of lines by cross products, so that almost parallel edges lose no
 ///             precision.
 void distance_sq(const TrianglePairBatch& pairs, double (&result)[TrianglePairBatch::kLanes]);
+
+/// The nearest points of eight pairs of triangles, one per lane.
+struct alignas(64) PairPoints {
+    double distance_sq[TrianglePairBatch::kLanes];
+    double on_a[3][TrianglePairBatch::kLanes], gap[3][TrianglePairBatch::kLanes]; ///< [axis][lane]
+
+    [[nodiscard]] Vec3 get_on_a(std::size_t lane) const {
+        return {on_a[0][lane], on_a[1][lane], on_a[2][lane]};
+    }
+    /// From the point of a to that of b.
+    [[nodiscard]] Vec3 get_gap(std::size_t lane) const {
+        return {gap[0][lane], gap[1][lane], gap[2][lane]};
+    }
+};
+
+/// As distance_sq, with the points. Of several that are as near, those found first.
+void nearest_points(const TrianglePairBatch& pairs, PairPoints& result);
+
+/// nearest_points with one lane: the reference for every SIMD target.
+void nearest_points_reference(const TrianglePairBatch& pairs, PairPoints& result);
 
 /// distance_sq with one lane: the reference for every SIMD target.
 void distance_sq_reference(const TrianglePairBatch& pairs,

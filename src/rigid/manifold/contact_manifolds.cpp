@@ -111,9 +111,9 @@ public:
                 last_names_.push_back(m.points[i].feature);
     }
 
-    std::vector<ModelManifold> find(const std::vector<Contact>& pairs) {
+    std::vector<ModelManifold> find(const MeetingPairs& pairs) {
         static thread_local ManifoldMemory memory;
-        describe_meetings(a_, b_, pairs, margin_, memory.meetings);
+        describe_meetings(pair_, a_, b_, pairs, margin_, memory.meetings);
         memory.regions.group(memory.meetings);
         const std::span<const TriangleMeeting> all(memory.meetings.all);
         for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
@@ -122,13 +122,20 @@ public:
                 ++end;
             add_region(without_beside(all.subspan(begin, end - begin), memory.facing), memory);
         }
-        nearest_ = std::sqrt(memory.meetings.nearest_sq) + slight_depth();
+        nearest_ = memory.meetings.nearest;
+        nearest_gap_ = std::sqrt(memory.meetings.nearest_sq);
         memory.trim();
         // The outer border of a ring stands for the inner one too.
         return std::move(manifolds_.empty() ? holes_ : manifolds_);
     }
-    /// A bound of the distance of the nearest triangles, of those that are only near.
-    [[nodiscard]] double nearest() const { return nearest_; }
+    /// The nearest pair of triangles that are only near, and its distance: infinite if there is none.
+    [[nodiscard]] const TrianglePair& nearest() const { return nearest_; }
+    [[nodiscard]] double nearest_gap() const { return nearest_gap_; }
+    /// A depth or gap of at most this may be rounding.
+    [[nodiscard]] double slight_depth() const {
+        constexpr double kSlightDepth = 16; // roundings
+        return kSlightDepth * rounding_of_places(a_, b_);
+    }
 
 private:
     /// A region without faces around the corner, unless it has no others.
@@ -190,11 +197,6 @@ private:
         return frame.only_touches;
     }
 
-    [[nodiscard]] double slight_depth() const {
-        constexpr double kSlightDepth = 16; // roundings
-        return kSlightDepth * rounding_of_places(a_, b_);
-    }
-
     /// The deepest region of depth_ that shares a triangle pair with a region; none if the
     /// depths of all of those may be rounding.
     [[nodiscard]] std::optional<std::size_t>
@@ -244,15 +246,11 @@ private:
     ManifoldSide a_, b_;
     std::vector<std::uint64_t> last_names_;
     std::vector<ModelManifold> manifolds_, holes_;
-    double nearest_ = HUGE_VAL;
+    TrianglePair nearest_;
+    double nearest_gap_ = HUGE_VAL;
     std::optional<Depth> depth_;   ///< computed when a region needs it
     std::vector<bool> depth_used_; ///< the regions of depth_ that have a manifold
 };
-
-bool any_meets(const std::vector<Contact>& pairs) {
-    return std::any_of(pairs.begin(), pairs.end(),
-                       [](const Contact& c) { return c.kind != TriangleContact::none; });
-}
 
 /// The least gap of the points of manifolds.
 double least_gap(const std::vector<ModelManifold>& manifolds) {
@@ -265,22 +263,16 @@ double least_gap(const std::vector<ModelManifold>& manifolds) {
 
 /// The manifold of the nearest pair of triangles. A solid inside the other looks at the back of its
 /// faces, which have no region in common with it.
-ModelManifold manifold_of_nearest(const PlacedPair& pair, const std::vector<Contact>& pairs) {
-    ClosestPoints nearest;
-    TrianglePair of;
-    for (const Contact& each : pairs) {
-        const ClosestPoints points =
-            triangle_triangle_distance(pair.triangle_a(each.pair.a), pair.triangle_b(each.pair.b));
-        if (&each == pairs.data() || points.distance_sq < nearest.distance_sq)
-            nearest = points, of = each.pair;
-    }
+ModelManifold manifold_of_nearest(const PlacedPair& placed, const TrianglePair& pair) {
+    const ClosestPoints nearest =
+        triangle_triangle_distance(placed.triangle_a(pair.a), placed.triangle_b(pair.b));
     ModelManifold m;
     m.normal = normalized_or_zero(nearest.b - nearest.a);
     if (m.normal == Vec3{})
         m.normal = {0, 0, 1};
     m.count = 1;
     m.points[0] = {nearest.a,           nearest.b, -std::sqrt(nearest.distance_sq),
-                   point_name::kMiddle, of.a,      of.b};
+                   point_name::kMiddle, pair.a,    pair.b};
     m.status = Status::bound_only;
     return m;
 }
@@ -289,9 +281,9 @@ ModelManifold manifold_of_nearest(const PlacedPair& pair, const std::vector<Cont
 /// as the product of their heights. Does nothing for few pairs.
 ///
 /// Cost        the first time for a model, that of slot_copies.
-void leave_out_copies(const Model& a, const Model& b, std::vector<Contact>& pairs) {
+void leave_out_copies(const Model& a, const Model& b, MeetingPairs& pairs) {
     constexpr std::size_t kManyPairs = 4096;
-    if (pairs.size() < kManyPairs)
+    if (pairs.meeting.size() + pairs.near.size() < kManyPairs)
         return;
     const auto copies_of = [](const ModelData& data) {
         const std::vector<bool>& by_slot = data.slot_copies();
@@ -305,12 +297,13 @@ void leave_out_copies(const Model& a, const Model& b, std::vector<Contact>& pair
     const auto is_in = [](const std::vector<bool>& copies, std::uint32_t triangle) {
         return !copies.empty() && copies[triangle];
     };
-    if (!of_a.empty() || !of_b.empty())
-        pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
-                                   [&](const Contact& c) {
-                                       return is_in(of_a, c.pair.a) || is_in(of_b, c.pair.b);
-                                   }),
-                    pairs.end());
+    if (of_a.empty() && of_b.empty())
+        return;
+    const auto is_copy = [&](const TrianglePair& p) {
+        return is_in(of_a, p.a) || is_in(of_b, p.b);
+    };
+    std::erase_if(pairs.meeting, [&](const Contact& c) { return is_copy(c.pair); });
+    std::erase_if(pairs.near, is_copy);
 }
 
 /// Tells what counts as contact of a solid inside the other one, where the surfaces share no point.
@@ -329,21 +322,22 @@ std::vector<ModelManifold> manifolds_of(const Model& a, const Transform& world_f
         // A transform was flattened: the pair holds copies of the meshes in world coordinates.
         return manifolds_of(Model(pair.a().mesh()), {}, Model(pair.b().mesh()), {}, options,
                             inside);
-    std::vector<Contact> pairs = meeting_pairs(pair, options.margin);
+    MeetingPairs pairs = meeting_pairs(pair, options.margin);
     leave_out_copies(a, b, pairs);
     std::vector<ModelManifold> manifolds;
-    if (inside == Inside::in_contact && !any_meets(pairs))
+    if (inside == Inside::in_contact && pairs.meeting.empty())
         manifolds = contained_manifold(a, world_from_a, b, world_from_b);
-    double nearest = HUGE_VAL;
-    if (manifolds.empty() && !pairs.empty()) {
-        ManifoldFinder finder(pair, a, b, pair.triangle_a(pairs[0].pair.a)[0], options);
+    if (manifolds.empty() && !(pairs.meeting.empty() && pairs.near.empty())) {
+        const TrianglePair& any =
+            pairs.meeting.empty() ? pairs.near.front() : pairs.meeting.front().pair;
+        ManifoldFinder finder(pair, a, b, pair.triangle_a(any.a)[0], options);
         manifolds = finder.find(pairs);
-        nearest = finder.nearest();
+        // Faces that look away have no region, also where they are the nearest ones.
+        const double nearest = finder.nearest_gap();
+        if (nearest < HUGE_VAL && inside == Inside::apart && pairs.meeting.empty() &&
+            !(least_gap(manifolds) <= (1 + 0x1p-20) * (nearest + finder.slight_depth())))
+            manifolds.push_back(manifold_of_nearest(pair, finder.nearest()));
     }
-    // Faces that look away have no region, also where they are the nearest ones.
-    if (!pairs.empty() && inside == Inside::apart && !any_meets(pairs) &&
-        !(least_gap(manifolds) <= (1 + 0x1p-20) * nearest))
-        manifolds.push_back(manifold_of_nearest(pair, pairs));
     name_regions(manifolds, options.last);
     return manifolds;
 }

@@ -1,21 +1,20 @@
 #include "rigid/manifold/region_points.h"
 
+#include "rigid/manifold/collected_vertices.h"
+#include "rigid/manifold/gap_queue.h"
 #include "rigid/manifold/parallel_rays.h"
+#include "rigid/manifold/point_extremes.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <optional>
 
 namespace abut {
 
 namespace {
 
-constexpr double kUnreached = std::numeric_limits<double>::infinity();
-/// Points are sought in this many directions around the centre.
-constexpr std::size_t kAround = 8;
 /// A place on the curve is moved towards the centre by this share: there the depth is not 0.
 constexpr double kInwards = 0.125;
 /// A vertex stands for a direction if it reaches at least this far, relative to the curve.
@@ -37,74 +36,18 @@ constexpr double kMeetingSpread = 0.125;
 /// A region of at most this many triangles is searched for its deepest line.
 constexpr std::size_t kFewTriangles = 24;
 
-/// A place where a contact point may be.
-struct PointCandidate {
-    enum class Kind : std::uint8_t { none, vertex_a, vertex_b, line, fixed };
-    Kind kind = Kind::none;
-    Vec3 at;                   ///< the vertex; a point of the line along the normal; fixed: on a
-    Vec3 on_b;                 ///< of a fixed one
-    TrianglePair pair;         ///< that it comes from
-    std::uint64_t feature = 0; ///< its name
-    bool was_chosen = false;   ///< in the last step
-};
-
-/// The candidate that is farthest in a direction.
-struct Extreme {
-    double reach = -kUnreached;
-    PointCandidate candidate;
-    void take(double other_reach, const PointCandidate& other) {
-        if (other_reach > reach || (other_reach == reach && other.feature < candidate.feature))
-            reach = other_reach, candidate = other;
-    }
-};
-
-using Extremes = std::array<Extreme, kAround>;
-
-/// Vertices that a region has collected. It may forget some.
-class CollectedVertices {
-public:
-    [[nodiscard]] bool has(std::uint32_t vertex) const { return kept_[vertex % kSize] == vertex; }
-    void add(std::uint32_t vertex) { kept_[vertex % kSize] = vertex; }
-
-private:
-    static constexpr std::size_t kSize = 64;
-    static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-    std::array<std::uint32_t, kSize> kept_ = [] {
-        std::array<std::uint32_t, kSize> none{};
-        none.fill(kNone);
-        return none;
-    }();
-};
-
 /// Memory that a thread uses again for its next region.
-struct RayMemory {
-    ParallelRays a, b;
+struct ChoiceMemory {
+    ParallelRays rays_a, rays_b;
+    GapQueue gaps; ///< pairs whose points have not been collected
 };
-
-/// A candidate of the last step stays until another one exceeds it by this factor: rounding and
-/// small motions do not change the choice.
-constexpr double kLoyalty = 1.1;
-
-double favoured(double size, const PointCandidate& candidate) {
-    return !candidate.was_chosen ? size : size > 0 ? kLoyalty * size : size / kLoyalty;
-}
-
-/// Multiples of the cosine and sine of the directions: -reach is that of the opposite one.
-void take_everywhere(Extremes& extremes, double x, double y, const PointCandidate& candidate) {
-    constexpr double kHalf = 0.70710678118654752;
-    const std::array<double, kAround / 2> reach{x, kHalf * (x + y), y, kHalf * (y - x)};
-    for (std::size_t k = 0; k < kAround / 2; ++k) {
-        extremes[k].take(favoured(reach[k], candidate), candidate);
-        extremes[k + kAround / 2].take(favoured(-reach[k], candidate), candidate);
-    }
-}
 
 class PointChooser {
 public:
     PointChooser(const ManifoldSide& a, const ManifoldSide& b,
                  std::span<const TriangleMeeting> region, const TriangleMeetings& meetings,
-                 const RegionFrame& frame, const ChoiceOptions& options, RayMemory& rays)
-        : a_(a), b_(b), region_(region), meetings_(meetings), frame_(frame), rays_(rays),
+                 const RegionFrame& frame, const ChoiceOptions& options, ChoiceMemory& memory)
+        : a_(a), b_(b), region_(region), meetings_(meetings), frame_(frame), memory_(memory),
           // Of heights: PlacedModel's positions, and sums of their products.
           rounding_(0x1p-46 * (a.model().reach() + b.model().reach())),
           margin_(options.margin + rounding_), last_(options.last) {}
@@ -115,7 +58,7 @@ public:
         manifold_.normal = frame_.normal;
         if (!first) {
             manifold_.status = Status::bound_only;
-            const TriangleMeeting& m = region_[region_.size() / 2];
+            const TriangleMeeting& m = most_weighty();
             const Vec3 on_b = m.kind == TriangleContact::none ? m.to : m.from;
             first = ContactPoint{
                 m.from,   on_b,    dot(frame_.normal, m.from - on_b), point_name::triangles(m.pair),
@@ -137,6 +80,7 @@ public:
 private:
     void collect() {
         for (const TriangleMeeting& m : region_) {
+            has_gaps_ = has_gaps_ || is_gap(m);
             for (std::uint32_t i = 0; i < m.point_count; ++i)
                 collect_fixed(m.pair, meetings_.points[m.first_point + i]);
             if (m.kind != TriangleContact::cross)
@@ -147,31 +91,88 @@ private:
                             candidate(PointCandidate::Kind::line, m.from, m.pair,
                                       point_name::triangles(m.pair)));
         }
+        if (has_gaps_)
+            collect_gaps();
         const double width = extent_of_region();
         lowest_ -= width, highest_ += width;
         for (const TriangleMeeting& m : region_)
             if (m.kind == TriangleContact::cross)
                 collect_vertices(m);
         const double radius = farthest_reach();
-        rays_.a.begin(a_, frame_, radius, region_.size() <= kFewTriangles);
-        rays_.b.begin(b_, frame_, radius, region_.size() <= kFewTriangles);
+        memory_.rays_a.begin(a_, frame_, radius, region_.size() <= kFewTriangles);
+        memory_.rays_b.begin(b_, frame_, radius, region_.size() <= kFewTriangles);
     }
 
     [[nodiscard]] PointCandidate candidate(PointCandidate::Kind kind, const Vec3& at,
                                            const TrianglePair& pair, std::uint64_t feature) const {
-        return {kind, at,      {},
-                pair, feature, std::find(last_.begin(), last_.end(), feature) != last_.end()};
+        return {kind, at, {}, pair, feature, last_.has(feature)};
     }
 
+    static bool is_gap(const TriangleMeeting& m) {
+        return m.kind == TriangleContact::none && !m.is_slight;
+    }
+    /// The meeting with the longest segment or the smallest gap.
+    [[nodiscard]] const TriangleMeeting& most_weighty() const {
+        return *std::max_element(
+            region_.begin(), region_.end(),
+            [](const TriangleMeeting& m, const TriangleMeeting& n) { return m.weight < n.weight; });
+    }
+
+    /// Whether the points of a pair that is only near lie along the normal, to less than a right angle.
+    [[nodiscard]] bool is_gap_along_normal(const TriangleMeeting& m) const {
+        return is_gap(m) && is_along_normal(m.from - m.to);
+    }
+    /// In          way: of a gap, from b to a.
+    [[nodiscard]] bool is_along_normal(const Vec3& way) const {
+        constexpr double kCosOfGap = 0x1p-30;
+        return dot(frame_.normal, way) <= -(kCosOfGap * length(way) + rounding_);
+    }
+
+    /// Collects the points of pairs that are only near. Of many such pairs only the nearest, those of
+    /// the last step, and those that reach farther than the points collected so far are looked at.
+    void collect_gaps() {
+        memory_.gaps.clear();
+        const TriangleMeeting* nearest = nullptr;
+        for (const TriangleMeeting& m : region_) {
+            if (!is_gap_along_normal(m))
+                continue;
+            if (nearest == nullptr || m.weight > nearest->weight)
+                nearest = &m;
+            if (was_any_chosen(m))
+                collect_points(m);
+            else
+                memory_.gaps.add(m, meetings_.faces[m.face_a].corners, frame_);
+        }
+        if (nearest == nullptr)
+            return;
+        collect_points(*nearest);
+        for (std::size_t k = 0; k < kAround; ++k) {
+            memory_.gaps.sort(k, gaps_[k].reach);
+            while (const TriangleMeeting* m = memory_.gaps.take(gaps_[k].reach))
+                collect_points(*m);
+        }
+    }
+    void collect_points(const TriangleMeeting& m) {
+        for (const FixedPoint& p : near_points(m, meetings_, margin_))
+            collect_fixed(m.pair, p);
+    }
+
+    /// Whether a point of a pair may have been chosen in the last step.
+    [[nodiscard]] bool was_any_chosen(const TriangleMeeting& m) const {
+        bool any = last_.has(point_name::triangles(m.pair));
+        for (std::size_t k = 0; k < 3; ++k)
+            any = any || last_.has(point_name::vertex_a(meetings_.faces[m.face_a].vertices[k])) ||
+                  last_.has(point_name::vertex_b(meetings_.faces[m.face_b].vertices[k]));
+        return any;
+    }
     void collect_fixed(const TrianglePair& pair, const FixedPoint& p) {
         // A gap straight across the normal is that of another face, as of the second wall of a corner.
-        // Along the normal it would look like a touch. So would one against the normal look like a depth.
-        constexpr double kCosOfGap = 0x1p-30, kSlightGap = 0x1p8; // roundings
-        const double depth = dot(frame_.normal, p.a - p.b), gap = length(p.a - p.b);
-        const double most = kCosOfGap * gap + rounding_;
-        if (gap > kSlightGap * rounding_ &&
-            (std::abs(depth) < most || (depth > 0 && frame_.is_flat)))
+        // Along the normal it would look like a touch, and one against the normal like a depth.
+        constexpr double kSlightGap = 0x1p8; // roundings
+        const Vec3 way = p.a - p.b;
+        if (length(way) > kSlightGap * rounding_ && !is_along_normal(way))
             return;
+        const double depth = dot(frame_.normal, way);
         PointCandidate c = candidate(PointCandidate::Kind::fixed, p.a, pair, p.feature);
         c.on_b = p.b;
         take_everywhere(depth >= -rounding_ ? fixed_ : gaps_, frame_.right(p.a), frame_.up(p.a), c);
@@ -232,13 +233,13 @@ private:
         } else {
             p.point_a = p.point_b = c.at;
             if (c.kind != PointCandidate::Kind::vertex_a) {
-                const ManifoldSide::LineHit top = rays_.a.top_along(c.at, n);
+                const ManifoldSide::LineHit top = memory_.rays_a.top_along(c.at, n);
                 if (!top.found)
                     return std::nullopt;
                 p.point_a = c.at + top.height * n, p.triangle_a = top.triangle;
             }
             if (c.kind != PointCandidate::Kind::vertex_b) {
-                const ManifoldSide::LineHit bottom = rays_.b.top_along(c.at, -n);
+                const ManifoldSide::LineHit bottom = memory_.rays_b.top_along(c.at, -n);
                 if (!bottom.found)
                     return std::nullopt;
                 p.point_b = c.at - bottom.height * n, p.triangle_b = bottom.triangle;
@@ -412,12 +413,13 @@ private:
     std::span<const TriangleMeeting> region_;
     const TriangleMeetings& meetings_;
     const RegionFrame& frame_;
-    RayMemory& rays_;
+    ChoiceMemory& memory_;
     double rounding_; ///< bounds that of heights
     double margin_;
-    std::span<const std::uint64_t> last_;                     ///< names of the last step
+    LastNames last_;
     Extremes vertices_a_, vertices_b_, fixed_, gaps_, curve_; ///< fixed_ have no gap
     Extreme lowest_b_, highest_a_, deepest_fixed_;
+    bool has_gaps_ = false;           ///< some pairs are only near
     double lowest_ = 0, highest_ = 0; ///< heights over the centre; see is_near_curve
     std::array<std::uint64_t, kMostTried> tried_{};
     std::ptrdiff_t tried_count_ = 0;
@@ -431,8 +433,8 @@ ModelManifold choose_points(const ManifoldSide& a, const ManifoldSide& b,
                             std::span<const TriangleMeeting> region,
                             const TriangleMeetings& meetings, const RegionFrame& frame,
                             const ChoiceOptions& options) {
-    static thread_local RayMemory rays;
-    return PointChooser(a, b, region, meetings, frame, options, rays).choose();
+    static thread_local ChoiceMemory memory;
+    return PointChooser(a, b, region, meetings, frame, options, memory).choose();
 }
 
 } // namespace abut

@@ -1,5 +1,6 @@
 #include "rigid/manifold/triangle_meeting.h"
 
+#include "geometry/leaf/triangle_pair_batch.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "geometry/triangle_triangle_segment.h"
 #include "rigid/manifold/touching_direction.h"
@@ -14,30 +15,37 @@ namespace abut {
 
 namespace {
 
-/// Collects the pairs that meet or are within a margin.
+/// Collects the pairs that meet, and those that may be within a margin.
 class NearPairCollector : public LeafPairVisitor {
 public:
-    NearPairCollector(const PlacedPair& pair, double margin)
-        : leaves_(pair), margin_sq_(margin * margin) {}
+    NearPairCollector(const PlacedPair& pair, double margin, MeetingPairs& pairs)
+        : leaves_(pair), margin_sq_(margin * margin), pairs_(pairs) {}
 
     double visit(NodeRef leaf_a, NodeRef leaf_b, const LeafPairs& leaf_pairs) override {
         leaves_.set_leaves(leaf_a, leaf_b);
-        for_each_pair(leaf_pairs.any(), [&](auto i, auto j) {
-            const Triangle &ta = leaves_.a(i), &tb = leaves_.b(j);
-            const TriangleContact kind = triangle_triangle_intersect(ta, tb);
-            if (kind != TriangleContact::none ||
-                triangle_triangle_distance(ta, tb).distance_sq <= margin_sq_)
-                pairs.push_back({leaves_.indices(i, j), kind});
+        for_each_pair(leaf_pairs.cross, [&](auto i, auto j) {
+            pairs_.meeting.push_back({leaves_.indices(i, j), TriangleContact::cross});
+            return true;
+        });
+        for_each_pair(leaf_pairs.may_meet, [&](auto i, auto j) {
+            const TriangleContact kind = triangle_triangle_intersect(leaves_.a(i), leaves_.b(j));
+            if (kind != TriangleContact::none)
+                pairs_.meeting.push_back({leaves_.indices(i, j), kind});
+            else
+                pairs_.near.push_back(leaves_.indices(i, j));
+            return true;
+        });
+        for_each_pair(leaf_pairs.may_be_near, [&](auto i, auto j) {
+            pairs_.near.push_back(leaves_.indices(i, j));
             return true;
         });
         return margin_sq_;
     }
 
-    std::vector<Contact> pairs;
-
 private:
     LeafTriangles leaves_;
     double margin_sq_;
+    MeetingPairs& pairs_;
 };
 
 /// A length of at most this many roundings of a position may be rounding.
@@ -115,25 +123,22 @@ private:
         std::uint32_t triangle = 0, face = 0;
         bool known = false;
     };
-    static constexpr std::size_t kSize = 64;
+    static constexpr std::size_t kSize = 256;
     std::array<Entry, kSize> entries_{};
 };
 
 /// Describes the meetings one by one.
 class MeetingWriter {
 public:
-    MeetingWriter(const ManifoldSide& a, const ManifoldSide& b, double margin,
-                  TriangleMeetings& meetings)
-        : a_(a), b_(b), margin_(margin), rounding_(rounding_of_places(a, b)), meetings_(meetings) {}
+    MeetingWriter(const PlacedPair& placed, const ManifoldSide& a, const ManifoldSide& b,
+                  double margin, TriangleMeetings& meetings)
+        : placed_(placed), a_(a), b_(b), margin_(margin), rounding_(rounding_of_places(a, b)),
+          meetings_(meetings) {}
 
     void add(const Contact& contact) {
-        TriangleMeeting m;
-        m.pair = contact.pair, m.kind = contact.kind;
-        m.face_a = recent_a_.face(a_, m.pair.a, meetings_.faces);
-        m.face_b = recent_b_.face(b_, m.pair.b, meetings_.faces);
+        TriangleMeeting m =
+            begin(contact.pair, contact.kind, face_a(contact.pair), face_b(contact.pair));
         const MeetingFace &fa = meetings_.faces[m.face_a], &fb = meetings_.faces[m.face_b];
-        m.normal_a = fa.unit_normal, m.normal_b = fb.unit_normal;
-        m.first_point = static_cast<std::uint32_t>(meetings_.points.size());
         if (contact.kind == TriangleContact::cross) {
             const CommonSegment s = common_segment(fa.corners, fa.normal, fb.corners, fb.normal);
             m.from = s.from, m.to = s.to;
@@ -146,16 +151,127 @@ public:
             if (!(m.weight > kSlight * rounding_) || hardly_passes(fa.corners, fb) ||
                 hardly_passes(fb.corners, fa))
                 add_touching(m, s, fa, fb);
-        } else if (contact.kind == TriangleContact::touch) {
+        } else {
             add_touching(m, fa, fb);
-        } else if (!add_near(m, fa, fb)) {
-            return;
         }
+        end(m);
+    }
+
+    /// Adds a pair that may be near. It counts once `measure` was called.
+    void add_near(const TrianglePair& pair) {
+        const Waiting& w = waiting_[waiting_count_] = {pair, face_a(pair), face_b(pair)};
+        batch_.set(waiting_count_, meetings_.faces[w.face_a].corners,
+                   meetings_.faces[w.face_b].corners);
+        if (++waiting_count_ == TrianglePairBatch::kLanes)
+            measure();
+    }
+
+    /// Measures the pairs that wait.
+    void measure() {
+        if (waiting_count_ == 0)
+            return;
+        PairPoints found;
+        nearest_points(batch_, found);
+        for (std::size_t lane = 0; lane < waiting_count_; ++lane)
+            if (const Waiting& w = waiting_[lane];
+                is_within_margin(w.pair, found.distance_sq[lane]))
+                add_near(w, found.get_on_a(lane), found.get_gap(lane), found.distance_sq[lane]);
+        waiting_count_ = 0;
+    }
+
+private:
+    /// A pair that has not been measured yet.
+    struct Waiting {
+        TrianglePair pair;
+        std::uint32_t face_a = 0, face_b = 0;
+    };
+
+    std::uint32_t face_a(const TrianglePair& pair) {
+        return recent_a_.face(a_, pair.a, meetings_.faces);
+    }
+    std::uint32_t face_b(const TrianglePair& pair) {
+        return recent_b_.face(b_, pair.b, meetings_.faces);
+    }
+
+    [[nodiscard]] TriangleMeeting begin(const TrianglePair& pair, TriangleContact kind,
+                                        std::uint32_t face_a, std::uint32_t face_b) const {
+        TriangleMeeting m;
+        m.pair = pair, m.kind = kind;
+        m.face_a = face_a, m.face_b = face_b;
+        m.normal_a = meetings_.faces[face_a].unit_normal;
+        m.normal_b = meetings_.faces[face_b].unit_normal;
+        m.first_point = static_cast<std::uint32_t>(meetings_.points.size());
+        return m;
+    }
+
+    void end(TriangleMeeting& m) {
         m.point_count = static_cast<std::uint32_t>(meetings_.points.size()) - m.first_point;
         meetings_.all.push_back(m);
     }
 
-private:
+    /// Whether a measured pair is near. Where the distance is the margin, to rounding, the triangles
+    /// in the world decide, as they do for `within`.
+    [[nodiscard]] bool is_within_margin(const TrianglePair& pair, double distance_sq) const {
+        const double margin_sq = margin_ * margin_;
+        if (std::abs(distance_sq - margin_sq) > 0x1p-20 * margin_sq)
+            return distance_sq < margin_sq;
+        return triangle_triangle_distance(placed_.triangle_a(pair.a), placed_.triangle_b(pair.b))
+                   .distance_sq <= margin_sq;
+    }
+
+    void add_near(const Waiting& w, const Vec3& on_a, const Vec3& gap, double distance_sq) {
+        if (distance_sq < meetings_.nearest_sq)
+            meetings_.nearest_sq = distance_sq, meetings_.nearest = w.pair;
+        const double distance = std::sqrt(distance_sq);
+        if (distance <= kSlightGap * rounding_) {
+            add_slight(w, on_a, gap, distance);
+            return;
+        }
+        const MeetingFace &fa = meetings_.faces[w.face_a], &fb = meetings_.faces[w.face_b];
+        const Vec3 way = (1 / distance) * gap;
+        const double cos_a = dot(way, fa.unit_normal), cos_b = dot(way, fb.unit_normal);
+        if (looks_away(cos_a, cos_b))
+            return;
+        TriangleMeeting& m =
+            meetings_.all.emplace_back(begin(w.pair, TriangleContact::none, w.face_a, w.face_b));
+        m.from = on_a, m.to = on_a + gap;
+        // At right angles, as flush faces are; a short gap is tilted by rounding.
+        const double right_angle = 0x1p-30 + kSlight * rounding_ / distance;
+        const bool across_a = std::abs(cos_a) < right_angle,
+                   across_b = std::abs(cos_b) < right_angle;
+        m.is_beside =
+            a_.is_oriented() && b_.is_oriented() ? across_a || across_b : across_a && across_b;
+        m.weight = weight_of(distance);
+    }
+
+    /// Adds a pair whose gap may be rounding.
+    void add_slight(const Waiting& w, const Vec3& on_a, const Vec3& gap, double distance) {
+        const MeetingFace &fa = meetings_.faces[w.face_a], &fb = meetings_.faces[w.face_b];
+        TriangleMeeting m = begin(w.pair, TriangleContact::none, w.face_a, w.face_b);
+        m.from = on_a, m.to = on_a + gap;
+        m.is_slight = true;
+        add_direction(m, fa, fb, distance);
+        if (looks_away(dot(m.across, m.normal_a), dot(m.across, m.normal_b)))
+            return;
+        m.weight = weight_of(distance);
+        for (const FixedPoint& p : near_points(m, meetings_, margin_))
+            meetings_.points.push_back(p);
+        end(m);
+    }
+
+    /// Whether a face looks away from the other: it is the far side of a thin body, or lies inside the
+    /// other one. In: cosines of the gap's direction with the normals.
+    [[nodiscard]] bool looks_away(double cos_a, double cos_b) const {
+        constexpr double kLooksAway = 0.5; // by more than 120 degrees
+        return (a_.is_oriented() && cos_a < -kLooksAway) ||
+               (b_.is_oriented() && cos_b > kLooksAway);
+    }
+
+    /// What a gap lacks to the margin. A pair whose gap equals the margin still has a direction.
+    [[nodiscard]] double weight_of(double distance) const {
+        return std::max(margin_ - distance, 0x1p-40 * margin_);
+    }
+
     void add_touching(TriangleMeeting& m, const MeetingFace& fa, const MeetingFace& fb) {
         const Intersection common = triangle_triangle_segment(fa.corners, fb.corners);
         const auto& c = common.corners;
@@ -220,84 +336,70 @@ private:
         return point_name::triangles(pair, corner);
     }
 
-    /// Adds the nearest points, and those of each vertex within the margin. Returns false, and adds
-    /// nothing, if a face looks away from the other: it is the far side of a thin body, or lies
-    /// inside the other one.
-    bool add_near(TriangleMeeting& m, const MeetingFace& fa, const MeetingFace& fb) {
-        const Triangle &ta = fa.corners, &tb = fb.corners;
-        const ClosestPoints nearest = triangle_triangle_distance(ta, tb);
-        meetings_.nearest_sq = std::min(meetings_.nearest_sq, nearest.distance_sq);
-        const double distance = std::sqrt(nearest.distance_sq);
-        m.is_slight = distance <= kSlightGap * rounding_;
-        if (m.is_slight)
-            add_direction(m, fa, fb, distance);
-        const Vec3 gap = m.is_slight ? m.across : normalized_or_zero(nearest.b - nearest.a);
-        constexpr double kLooksAway = 0.5; // by more than 120 degrees
-        if ((a_.is_oriented() && dot(gap, m.normal_a) < -kLooksAway) ||
-            (b_.is_oriented() && dot(gap, m.normal_b) > kLooksAway))
-            return false;
-        m.from = nearest.a, m.to = nearest.b;
-        // At right angles, as flush faces are; a short gap is tilted by rounding.
-        const double right_angle = 0x1p-30 + kSlight * rounding_ / std::max(distance, rounding_);
-        const bool across_a = std::abs(dot(gap, m.normal_a)) < right_angle,
-                   across_b = std::abs(dot(gap, m.normal_b)) < right_angle;
-        m.is_beside = !m.is_slight && (a_.is_oriented() && b_.is_oriented() ? across_a || across_b
-                                                                            : across_a && across_b);
-        // A pair whose gap equals the margin still has a direction.
-        m.weight = std::max(margin_ - distance, 0x1p-40 * margin_);
-        const double most_sq = margin_ * margin_;
-        auto& points = meetings_.points;
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (const auto on_a = nearest_on_triangle(tb[k], ta); on_a.distance_sq <= most_sq)
-                points.push_back({on_a.point, tb[k], point_name::vertex_b(fb.vertices[k])});
-            if (const auto on_b = nearest_on_triangle(ta[k], tb); on_b.distance_sq <= most_sq)
-                points.push_back({ta[k], on_b.point, point_name::vertex_a(fa.vertices[k])});
-        }
-        if (nearest.on_a.kind != Feature::vertex && nearest.on_b.kind != Feature::vertex)
-            points.push_back({nearest.a, nearest.b, point_name::triangles(m.pair)});
-        return true;
-    }
-
+    const PlacedPair& placed_;
     const ManifoldSide& a_;
     const ManifoldSide& b_;
     double margin_;
     double rounding_;
     TriangleMeetings& meetings_;
     RecentFaces recent_a_, recent_b_;
+    TrianglePairBatch batch_{};
+    std::array<Waiting, TrianglePairBatch::kLanes> waiting_{};
+    std::size_t waiting_count_ = 0;
 };
 
 } // namespace
 
-std::vector<Contact> meeting_pairs(const PlacedPair& pair, double margin) {
-    std::vector<Contact> pairs;
+MeetingPairs meeting_pairs(const PlacedPair& pair, double margin) {
+    MeetingPairs pairs;
     if (margin > 0) {
-        NearPairCollector collector(pair, margin);
+        NearPairCollector collector(pair, margin, pairs);
         PairTraversal traversal = pair.traversal(margin * margin);
         pair.visit_nearest(traversal, collector);
-        pairs = std::move(collector.pairs);
     } else {
         Counters counters;
-        pairs = find_contacts(pair, ContactMode::all, counters);
+        pairs.meeting = find_contacts(pair, ContactMode::all, counters);
     }
-    std::sort(pairs.begin(), pairs.end(),
+    std::sort(pairs.meeting.begin(), pairs.meeting.end(),
               [](const Contact& c, const Contact& d) { return c.pair < d.pair; });
     return pairs;
 }
 
-void describe_meetings(const ManifoldSide& a, const ManifoldSide& b,
-                       const std::vector<Contact>& pairs, double margin,
-                       TriangleMeetings& meetings) {
+void describe_meetings(const PlacedPair& placed, const ManifoldSide& a, const ManifoldSide& b,
+                       const MeetingPairs& pairs, double margin, TriangleMeetings& meetings) {
     meetings.all.clear();
     meetings.points.clear();
     meetings.faces.clear();
     meetings.nearest_sq = std::numeric_limits<double>::infinity();
-    meetings.all.reserve(pairs.size());
-    MeetingWriter writer(a, b, margin, meetings);
+    meetings.all.reserve(pairs.meeting.size() + pairs.near.size());
+    MeetingWriter writer(placed, a, b, margin, meetings);
     SearchSteps steps;
-    for (const Contact& contact : pairs) {
+    for (const Contact& contact : pairs.meeting) {
         steps.take();
         writer.add(contact);
     }
+    for (const TrianglePair& pair : pairs.near) {
+        steps.take();
+        writer.add_near(pair);
+    }
+    writer.measure();
+}
+
+NearPoints near_points(const TriangleMeeting& m, const TriangleMeetings& meetings, double margin) {
+    const MeetingFace &fa = meetings.faces[m.face_a], &fb = meetings.faces[m.face_b];
+    const Triangle &ta = fa.corners, &tb = fb.corners;
+    const double most_sq = margin * margin;
+    NearPoints points;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (const auto on_a = nearest_on_triangle(tb[k], ta); on_a.distance_sq <= most_sq)
+            points.push_back({on_a.point, tb[k], point_name::vertex_b(fb.vertices[k])});
+        if (const auto on_b = nearest_on_triangle(ta[k], tb); on_b.distance_sq <= most_sq)
+            points.push_back({ta[k], on_b.point, point_name::vertex_a(fa.vertices[k])});
+    }
+    const ClosestPoints nearest = triangle_triangle_distance(ta, tb);
+    if (nearest.on_a.kind != Feature::vertex && nearest.on_b.kind != Feature::vertex)
+        points.push_back({nearest.a, nearest.b, point_name::triangles(m.pair)});
+    return points;
 }
 
 } // namespace abut

@@ -3,6 +3,7 @@
 #include "rigid/manifold/manifold_side.h"
 #include "rigid/pair/contacts.h"
 
+#include <boost/container/static_vector.hpp>
 #include <cstdint>
 #include <vector>
 
@@ -29,9 +30,10 @@ struct TriangleMeeting {
     TrianglePair pair;
     TriangleContact kind = TriangleContact::none; ///< none: they are only near
     std::uint32_t region = 0;
-    std::uint32_t face_a = 0, face_b = 0;           ///< in TriangleMeetings::faces
-    std::uint32_t first_point = 0, point_count = 0; ///< of touching and near pairs: fixed points
-    Vec3 normal_a, normal_b;                        ///< outward unit normals; zero without area
+    std::uint32_t face_a = 0, face_b = 0; ///< in TriangleMeetings::faces
+    /// Fixed points, of pairs that touch or are apart by little more than rounding.
+    std::uint32_t first_point = 0, point_count = 0;
+    Vec3 normal_a, normal_b; ///< outward unit normals; zero without area
     /// Crossing: the common segment, along normal_a x normal_b; one of its points, twice, if the
     /// triangles are coplanar to rounding. Touching: one common point, twice. Near: the nearest
     /// points of a and of b.
@@ -55,7 +57,9 @@ struct TriangleMeetings {
     std::vector<TriangleMeeting> all;
     std::vector<FixedPoint> points;
     std::vector<MeetingFace> faces; ///< of both sides; a triangle may be there several times
-    /// The squared distance of the nearest pair that is only near, also if its faces look away.
+    /// The nearest pair that is only near, also if its faces look away; its squared distance, infinite
+    /// if there is none.
+    TrianglePair nearest;
     double nearest_sq = 0;
 };
 
@@ -75,15 +79,29 @@ constexpr std::uint64_t triangles(const TrianglePair& pair, std::uint32_t corner
 }
 } // namespace point_name
 
-/// Finds the triangle pairs of two placed models that meet or are at most `margin` apart, sorted.
-/// A pair that is only near has the kind `none`.
-std::vector<Contact> meeting_pairs(const PlacedPair& pair, double margin);
+/// The pairs of triangles of which a manifold is made.
+struct MeetingPairs {
+    std::vector<Contact> meeting;   ///< sorted
+    std::vector<TrianglePair> near; ///< all others within the margin; some are a little beyond it
+};
 
-/// Computes where the pairs meet.
+/// Finds the triangle pairs of two placed models that meet or are at most `margin` apart.
 ///
-/// In          pairs: sorted.
-void describe_meetings(const ManifoldSide& a, const ManifoldSide& b,
-                       const std::vector<Contact>& pairs, double margin,
-                       TriangleMeetings& meetings);
+/// Cost        of the pairs that are near, their bounds in single precision.
+MeetingPairs meeting_pairs(const PlacedPair& pair, double margin);
+
+/// Computes where the pairs meet. Those that meet come first, in their order.
+///
+/// In          a, b: the sides of the placed pair.
+/// Cost        of a pair that is only near, one lane of eight that are measured at once.
+void describe_meetings(const PlacedPair& placed, const ManifoldSide& a, const ManifoldSide& b,
+                       const MeetingPairs& pairs, double margin, TriangleMeetings& meetings);
+
+/// Places where a pair of triangles that are only near may have a contact point.
+using NearPoints = boost::container::static_vector<FixedPoint, 7>;
+
+/// The nearest points of the triangles, if they lie on no vertex, and those of each vertex within the
+/// margin.
+NearPoints near_points(const TriangleMeeting& m, const TriangleMeetings& meetings, double margin);
 
 } // namespace abut

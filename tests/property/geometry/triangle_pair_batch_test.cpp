@@ -2,6 +2,7 @@
 // answer.
 
 #include "geometry/leaf/triangle_pair_batch.h"
+#include "geometry/point_triangle_distance.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "geometry/triangle_triangle_intersect.h"
 #include "tests/support/oracle/precise_distance.h"
@@ -75,6 +76,40 @@ TEST(TrianglePairBatch, DistanceEqualsTheReferenceAndTheScalarFunction) {
         }
         std::cout << target << ": worst " << worst << " roundings\n";
         EXPECT_GT(apart, 30000);
+    });
+}
+
+TEST(TrianglePairBatch, NearestPointsLieOnTheTrianglesAtThatDistance) {
+    for_each_simd_target([](const std::string& target) {
+        SCOPED_TRACE(target);
+        Random random(505);
+        std::cout << "seed 505\n";
+        int apart = 0;
+        for (int i = 0; i < many(4000); ++i) {
+            const Triangle a = batch_triangle(random, i);
+            TrianglePairBatch batch{};
+            for (std::size_t lane = 0; lane < TrianglePairBatch::kLanes; ++lane)
+                batch.set(lane, a, batch_triangle(random, i));
+            PairPoints simd, one;
+            double distances[TrianglePairBatch::kLanes];
+            nearest_points(batch, simd);
+            nearest_points_reference(batch, one);
+            distance_sq(batch, distances);
+            for (std::size_t lane = 0; lane < TrianglePairBatch::kLanes; ++lane) {
+                const Triangle b = batch.get_b(lane);
+                const double unit = 0x1p-53 * size_of(a, b);
+                const Vec3 on_a = simd.get_on_a(lane), on_b = on_a + simd.get_gap(lane);
+                ASSERT_EQ(simd.distance_sq[lane], distances[lane]) << "case " << i;
+                ASSERT_NEAR(std::sqrt(simd.distance_sq[lane]), std::sqrt(one.distance_sq[lane]),
+                            64 * unit)
+                    << "case " << i;
+                ASSERT_NEAR(length(on_b - on_a), std::sqrt(distances[lane]), 16 * unit);
+                ASSERT_LE(std::sqrt(point_triangle_distance(on_a, a).distance_sq), 64 * unit);
+                ASSERT_LE(std::sqrt(point_triangle_distance(on_b, b).distance_sq), 64 * unit);
+                apart += distances[lane] > 0 ? 1 : 0;
+            }
+        }
+        EXPECT_GT(apart, 10000);
     });
 }
 
