@@ -31,7 +31,9 @@ struct ContactPoint {
 struct ContactManifold {
     BodyId a, b;              ///< a.index < b.index
     Vec3 normal;              ///< unit vector from a to b
-    std::uint32_t region = 0; ///< names the contact region of this pair; 0 for convex bodies
+    /// Names the contact region of this pair; 0 for convex bodies. A ball or capsule has one for each
+    /// wall of a model that it touches.
+    std::uint32_t region = 0;
     /// Of compounds: their pieces, each pair of which has regions and names of its own. Else 0.
     std::uint32_t piece_a = 0, piece_b = 0;
     std::uint64_t user_data_a = 0, user_data_b = 0; ///< BodyOptions::user_data of the bodies

@@ -303,8 +303,36 @@ void append_region_contacts(const BodiesInContact& bodies, double margin, PairWa
     }
 }
 
-/// The contact of a ball or a capsule and a surface, where triangles near its core tell it. Returns whether
-/// they do.
+/// Appends the walls that a ball or a capsule touches. They keep the numbers of those of the last query
+/// that are nearest.
+void append_walls(std::span<const ContactManifold> walls, RegionsOfPair& last,
+                  std::vector<ContactManifold>& manifolds) {
+    if (walls.empty())
+        last.manifolds.clear();
+    if (walls.size() < 2 && last.manifolds.empty()) {
+        manifolds.insert(manifolds.end(), walls.begin(), walls.end());
+        return;
+    }
+    static thread_local std::vector<ModelManifold> memory;
+    Borrowed<std::vector<ModelManifold>> borrowed(memory);
+    std::vector<ModelManifold>& regions = *borrowed;
+    regions.clear();
+    for (const ContactManifold& wall : walls) {
+        ModelManifold& region = regions.emplace_back();
+        region.normal = wall.normal, region.count = wall.count, region.points = wall.points;
+    }
+    name_regions(regions, &last.manifolds);
+    for (const ModelManifold& region : regions) {
+        ContactManifold& manifold = manifolds.emplace_back();
+        manifold.normal = region.normal, manifold.region = region.region;
+        manifold.count = region.count, manifold.points = region.points;
+    }
+    last.manifolds.assign(regions.begin(), regions.end());
+    last.placements = {};
+}
+
+/// The contacts of a ball or a capsule and a surface, where triangles near its core tell them. Returns
+/// whether they do.
 bool append_rounded_contact(const PlacedBody& a, const PlacedBody& b, double margin,
                             PairWarmStart& warm_start, std::vector<ContactManifold>& manifolds) {
     const bool solid_is_a = is_surface(b.shape);
@@ -320,8 +348,7 @@ bool append_rounded_contact(const PlacedBody& a, const PlacedBody& b, double mar
         return false;
     const double doubt = found->rounding + 2 * contact_rounding(a, b);
     const std::size_t first = manifolds.size();
-    if (found->manifold.count > 0)
-        manifolds.push_back(found->manifold);
+    append_walls({found->manifolds.data(), found->manifolds.size()}, warm_start.regions, manifolds);
     keep_within_margin(a, b, margin, doubt, warm_start, first, manifolds);
     return true;
 }

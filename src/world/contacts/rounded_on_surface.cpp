@@ -1,7 +1,6 @@
 #include "world/contacts/rounded_on_surface.h"
 
 #include "core/borrowed.h"
-#include "geometry/supporting_normal.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "rigid/model/placed_model.h"
 #include "world/contacts/capsule_contacts.h"
@@ -22,6 +21,13 @@ namespace {
 /// Triangles that are farther than the nearest one by at most this factor are at the same place.
 constexpr double kBeside = 1 + 0x1p-20;
 
+/// A distance above this share of the coordinates tells its direction to 2^-28.
+constexpr double kLeastDistance = 0x1p-24;
+/// Places that are no farther apart than this share of the radius are one.
+constexpr double kSamePlace = 0x1p-20;
+/// By this share of the radius a wall rises over another.
+constexpr double kLeastRise = 0x1p-10;
+
 /// A triangle near the core, and where they are nearest.
 struct TriangleBelow {
     Triangle corners;
@@ -30,15 +36,21 @@ struct TriangleBelow {
     double distance = 0;
 };
 
-/// Finds the contact. All positions are relative to the middle of the core.
+/// Memory that a thread uses again for its next contact.
+struct NearTriangles {
+    std::vector<TriangleBelow> below;
+    std::vector<const TriangleBelow*> rising;
+};
+
+/// Finds the contacts. All positions are relative to the middle of the core.
 class RoundedOnSurface {
 public:
     /// In          memory: of earlier contacts, used again.
     RoundedOnSurface(const RoundedBox& solid, const Model& surface,
-                     const Transform& world_from_surface, double margin,
-                     std::vector<TriangleBelow>& memory)
+                     const Transform& world_from_surface, double margin, NearTriangles& memory)
         : surface_(surface, world_from_surface, solid.centre), radius_(solid.radius),
-          margin_(margin), is_ball_(dimension(solid) == 0), below_(memory) {
+          margin_(margin), is_ball_(dimension(solid) == 0), below_(memory.below),
+          rising_(memory.rising) {
         below_.clear();
         if (!is_ball_) {
             const Segment axis = axis_of(solid);
@@ -47,8 +59,8 @@ public:
         size_ = sum_of_sizes(solid.centre) + surface_.reach() + length(ends_[0]) + radius_;
     }
 
-    std::optional<RoundedContact> find(const Vec3& centre, bool solid_is_a) {
-        RoundedContact found;
+    std::optional<RoundedContacts> find(const Vec3& centre, bool solid_is_a) {
+        RoundedContacts found;
         found.rounding = kCoreRounding * size_;
         collect();
         if (below_.empty())
@@ -56,26 +68,17 @@ public:
         const TriangleBelow& nearest = *std::min_element(
             below_.begin(), below_.end(),
             [](const TriangleBelow& s, const TriangleBelow& t) { return s.distance < t.distance; });
-        if (!(nearest.distance > kTellsDirection * size_) || !is_outside(nearest))
+        if (!(nearest.distance > kLeastDistance * size_) || !is_outside(nearest))
             return std::nullopt;
-        const Vec3 up = (1 / nearest.distance) * (nearest.on_core - nearest.on_surface);
-        ContactManifold& m = found.manifold;
-        m.normal = solid_is_a ? -up : up;
-        m.count = 1;
-        m.points[0] = point_at(nearest.on_surface, nearest.on_core - radius_ * up,
-                               radius_ - nearest.distance, nearest.slot, centre, solid_is_a);
-        if (!is_ball_) {
-            const std::array contacts{contact_of_end(0, up, centre, solid_is_a),
-                                      contact_of_end(1, up, centre, solid_is_a)};
-            add_capsule_ends({centre + ends_[0], centre + ends_[1]}, contacts,
-                             contact_between_ends(up, centre, solid_is_a), solid_is_a, m);
-        }
+        find_walls(nearest);
+        for (const Wall& wall : walls_)
+            found.manifolds.push_back(contact_of(wall, centre, solid_is_a));
         return found;
     }
 
 private:
     void collect() {
-        double bound = radius_ + margin_ + kCoreRounding * size_;
+        const double bound = radius_ + margin_ + kCoreRounding * size_;
         const std::span<const Vec3> core(ends_.data(), is_ball_ ? 1 : 2);
         const Vec3 low = min(ends_[0], ends_[1]), high = max(ends_[0], ends_[1]);
         surface_.for_each_near_hull(core, bound, [&](std::uint32_t slot) {
@@ -100,9 +103,6 @@ private:
             if (!(t.distance <= bound))
                 return;
             below_.push_back(t);
-            // A ball needs the nearest triangles only, and those beside them.
-            if (is_ball_)
-                bound = std::min(bound, kBeside * t.distance);
         });
         // The order in which a tree is traversed differs between processors.
         std::sort(below_.begin(), below_.end(),
@@ -112,17 +112,131 @@ private:
     /// Returns whether the core lies outside at the nearest place: before all triangles there. Both sides of
     /// an open surface are outside.
     [[nodiscard]] bool is_outside(const TriangleBelow& nearest) const {
+        if (!surface_.data().solid().closed)
+            return true;
+        const double facing = facing_of_surface();
+        return facing != 0 &&
+               std::all_of(below_.begin(), below_.end(), [&](const TriangleBelow& t) {
+                   return t.distance > kBeside * nearest.distance || is_before(t, facing);
+               });
+    }
+    /// -1 if the triangles of a closed surface look inwards, +1 if outwards; 0 if they tell no side.
+    [[nodiscard]] double facing_of_surface() const {
         const Solid& solid = surface_.data().solid();
         if (!solid.closed)
-            return true;
-        const double facing = is_mirroring(surface_.world()) ? -solid.outward : solid.outward;
-        if (facing == 0)
-            return false;
-        return std::all_of(below_.begin(), below_.end(), [&](const TriangleBelow& t) {
-            const Vec3 normal = cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]);
-            return t.distance > kBeside * nearest.distance ||
-                   facing * dot(normal, t.on_core - t.on_surface) > 0;
+            return 0;
+        return is_mirroring(surface_.world()) ? -solid.outward : solid.outward;
+    }
+    /// Whether the core is on the side to which a triangle looks.
+    [[nodiscard]] static bool is_before(const TriangleBelow& t, double facing) {
+        const Vec3 normal = cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]);
+        return facing * dot(normal, t.on_core - t.on_surface) > 0;
+    }
+
+    /// A place where the surface holds the core.
+    struct Wall {
+        const TriangleBelow* at = nullptr;
+        Vec3 up; ///< from the surface to the core
+        [[nodiscard]] double height(const Vec3& p) const { return dot(p - at->on_surface, up); }
+    };
+    static Wall wall_at(const TriangleBelow& t) {
+        return {&t, (1 / t.distance) * (t.on_core - t.on_surface)};
+    }
+
+    void find_walls(const TriangleBelow& nearest) {
+        walls_.assign(1, wall_at(nearest));
+        rising_.clear();
+        for (const TriangleBelow& t : below_)
+            if (rises(t) && is_outside_at(t) && is_nearest_there(t))
+                rising_.push_back(&t);
+        while (walls_.size() < walls_.capacity())
+            if (const TriangleBelow* next = next_wall())
+                walls_.push_back(wall_at(*next));
+            else
+                return;
+    }
+    /// Whether the place of a triangle lies over the planes of all walls so far.
+    [[nodiscard]] bool rises(const TriangleBelow& t) const {
+        return std::all_of(walls_.begin(), walls_.end(), [&](const Wall& wall) {
+            return wall.height(t.on_surface) > kLeastRise * radius_;
         });
+    }
+    /// The triangle that meets the body, or if none does, is near it, whose direction differs most from the
+    /// walls so far; nullptr if none rises over them.
+    [[nodiscard]] const TriangleBelow* next_wall() const {
+        const TriangleBelow* best = nullptr;
+        double least = HUGE_VAL;
+        bool best_meets = false;
+        for (const TriangleBelow* t : rising_) {
+            const bool meets = t->distance <= radius_;
+            if (!rises(*t) || (best_meets && !meets))
+                continue;
+            double along = -1;
+            for (const Wall& wall : walls_)
+                along = std::max(along, dot(wall.up, wall_at(*t).up));
+            if (meets > best_meets || along < least)
+                best = t, least = along, best_meets = meets;
+        }
+        return best == nullptr ? nullptr : nearest_beside(*best);
+    }
+    /// The nearest of the triangles that have about the direction of one of them.
+    [[nodiscard]] const TriangleBelow* nearest_beside(const TriangleBelow& one) const {
+        constexpr double kSameDirection = 1 - 0x1p-12; // 1.3 degrees
+        const Vec3 up = wall_at(one).up;
+        const TriangleBelow* nearest = &one;
+        for (const TriangleBelow* t : rising_)
+            if (t->distance < nearest->distance && dot(wall_at(*t).up, up) > kSameDirection)
+                nearest = t;
+        return nearest;
+    }
+    [[nodiscard]] bool is_at_same_place(const TriangleBelow& s, const TriangleBelow& t) const {
+        return s.distance <= kBeside * t.distance && t.distance <= kBeside * s.distance &&
+               max_abs(s.on_surface - t.on_surface) <= kSamePlace * radius_;
+    }
+    /// As is_outside, for the triangles that meet at a place.
+    [[nodiscard]] bool is_outside_at(const TriangleBelow& place) const {
+        const double facing = facing_of_surface();
+        return facing == 0 ||
+               std::all_of(below_.begin(), below_.end(), [&](const TriangleBelow& t) {
+                   return !is_at_same_place(t, place) || is_before(t, facing);
+               });
+    }
+    /// Whether no triangle that holds the place is nearer to the core.
+    [[nodiscard]] bool is_nearest_there(const TriangleBelow& place) const {
+        const Vec3& p = place.on_surface;
+        const double width = kSamePlace * radius_;
+        return std::none_of(below_.begin(), below_.end(), [&](const TriangleBelow& t) {
+            const auto& [q, r, s] = t.corners;
+            const Vec3 beyond = max(min(q, min(r, s)) - p, p - max(q, max(r, s)));
+            return t.distance + kCoreRounding * size_ < place.distance &&
+                   std::max({beyond.x, beyond.y, beyond.z}) <= width &&
+                   nearest_on_triangle(p, t.corners).distance_sq <= width * width;
+        });
+    }
+
+    /// Whether a direction leads the same way as a wall's, and no other wall's is nearer to it.
+    [[nodiscard]] bool belongs_to(const Vec3& up, const Vec3& way) const {
+        return leads_same_way(way, up) &&
+               std::all_of(walls_.begin(), walls_.end(), [&](const Wall& other) {
+                   return dot(way, other.up - up) <= kCoreRounding;
+               });
+    }
+
+    ContactManifold contact_of(const Wall& wall, const Vec3& centre, bool solid_is_a) {
+        const TriangleBelow& t = *wall.at;
+        const Vec3& up = wall.up;
+        ContactManifold m;
+        m.normal = solid_is_a ? -up : up;
+        m.count = 1;
+        m.points[0] = point_at(t.on_surface, t.on_core - radius_ * up, radius_ - t.distance, t.slot,
+                               centre, solid_is_a);
+        if (!is_ball_) {
+            const std::array contacts{contact_of_end(0, up, centre, solid_is_a),
+                                      contact_of_end(1, up, centre, solid_is_a)};
+            add_capsule_ends({centre + ends_[0], centre + ends_[1]}, contacts,
+                             contact_between_ends(up, centre, solid_is_a), solid_is_a, m);
+        }
+        return m;
     }
 
     [[nodiscard]] ContactPoint point_at(const Vec3& on_surface, const Vec3& on_solid, double depth,
@@ -134,21 +248,25 @@ private:
                    : ContactPoint{centre + on_surface, centre + on_solid, depth, 0, triangle, 0};
     }
 
-    /// The contact of an end, along the capsule's normal; none if the normal of the ball there leads another
-    /// way. The surface counts as flat beside the place that is nearest to the end.
+    /// The contact of an end, along the capsule's normal; none if no triangle has a normal for the ball there
+    /// that leads the same way. The surface counts as flat beside the place that is nearest to the end.
     std::optional<ContactPoint> contact_of_end(std::size_t which, const Vec3& up,
                                                const Vec3& centre, bool solid_is_a) {
         const Vec3& end = ends_[which];
-        double nearest_sq = HUGE_VAL;
-        Vec3 on_surface;
+        double nearest_sq = HUGE_VAL, same_way_sq = HUGE_VAL;
+        Vec3 up_there, on_surface;
         std::uint32_t slot = 0;
-        for (const TriangleBelow& t : below_)
-            if (const NearestOnTriangle near = nearest_on_triangle(end, t.corners);
-                near.distance_sq < nearest_sq)
-                nearest_sq = near.distance_sq, on_surface = near.point, slot = t.slot;
-        const Vec3 up_there = normalized_or_zero(end - on_surface);
+        for (const TriangleBelow& t : below_) {
+            const NearestOnTriangle near = nearest_on_triangle(end, t.corners);
+            nearest_sq = std::min(nearest_sq, near.distance_sq);
+            if (!(near.distance_sq < same_way_sq))
+                continue;
+            if (const Vec3 way = normalized_or_zero(end - near.point); belongs_to(up, way))
+                same_way_sq = near.distance_sq, on_surface = near.point, up_there = way,
+                slot = t.slot;
+        }
         depth_of_end_[which] = std::max(radius_ - std::sqrt(nearest_sq), -margin_);
-        if (!leads_same_way(up_there, up))
+        if (same_way_sq == HUGE_VAL)
             return std::nullopt;
         // Below the higher end of a capsule that leans is its side, not the ball.
         const Vec3 inwards = normalized_or_zero(ends_[1 - which] - end);
@@ -173,7 +291,7 @@ private:
             const double share = dot(t.on_core - ends_[0], way) / length_sq(way);
             const double over =
                 radius_ - t.distance - ((1 - share) * depth_of_end_[0] + share * depth_of_end_[1]);
-            if (over > most && leads_same_way((1 / t.distance) * (t.on_core - t.on_surface), up))
+            if (over > most && belongs_to(up, (1 / t.distance) * (t.on_core - t.on_surface)))
                 most = over, best = &t;
         }
         if (best == nullptr || radius_ - best->distance < -margin_)
@@ -190,15 +308,17 @@ private:
     std::array<double, 2> depth_of_end_{}; ///< at least minus the margin
     double size_ = 0;                      ///< bounds the coordinates
     std::vector<TriangleBelow>& below_;
+    std::vector<const TriangleBelow*>& rising_; ///< over the nearest place
+    boost::container::static_vector<Wall, RoundedContacts::kMostWalls> walls_;
 };
 
 } // namespace
 
-std::optional<RoundedContact> rounded_on_surface(const RoundedBox& solid, const Model& surface,
-                                                 const Transform& world_from_surface,
-                                                 bool solid_is_a, double margin) {
-    static thread_local std::vector<TriangleBelow> kept;
-    Borrowed<std::vector<TriangleBelow>> memory(kept);
+std::optional<RoundedContacts> rounded_on_surface(const RoundedBox& solid, const Model& surface,
+                                                  const Transform& world_from_surface,
+                                                  bool solid_is_a, double margin) {
+    static thread_local NearTriangles kept;
+    Borrowed<NearTriangles> memory(kept);
     return RoundedOnSurface(solid, surface, world_from_surface, margin, *memory)
         .find(solid.centre, solid_is_a);
 }

@@ -235,10 +235,11 @@ TEST(SolidOnSurface, BallsAndCapsulesHaveTheGapsOfOtherQueries) {
         GroundAndSolid pair(shape, pose, mesh, random.chance(0.5));
         const auto found = pair.world.contact_manifolds(margin);
         const auto gaps = margin == 0 ? pair.world.penetration() : pair.world.within(margin);
-        ASSERT_EQ(found.size(), gaps.size());
+        ASSERT_EQ(found.empty(), gaps.empty());
         if (gaps.empty())
             continue;
         ++met, ends += found[0].count > 1 ? 1 : 0;
+        // The nearest wall is that of the other queries.
         EXPECT_LE(length(found[0].normal - gaps[0].normal), 1e-9);
         EXPECT_TRUE(are_on_lines(found));
         // Along a line that lies flat, an end may be less deep by rounding of its place. The ends of an axis

@@ -243,13 +243,13 @@ TEST_P(TouchingBodies, AreTheSameForEveryQueryAndOrder) {
     }
 }
 
-std::string name_of(const testing::TestParamInfo<TouchingCase>& tested) {
+std::string name_of_touching(const testing::TestParamInfo<TouchingCase>& tested) {
     constexpr std::array kNames{"grid", "anywhere", "turned", "far_away", "with_a_gap"};
     return std::string(tested.param.curved ? "curved_" : "plain_") +
            kNames.at(std::size_t(tested.param.placement));
 }
 
-std::vector<TouchingCase> all_cases() {
+std::vector<TouchingCase> all_touching_cases() {
     std::vector<TouchingCase> cases;
     for (const bool curved : {false, true})
         for (const Placement placement : {Placement::grid, Placement::anywhere, Placement::turned,
@@ -258,7 +258,8 @@ std::vector<TouchingCase> all_cases() {
     return cases;
 }
 
-INSTANTIATE_TEST_SUITE_P(Placements, TouchingBodies, testing::ValuesIn(all_cases()), name_of);
+INSTANTIATE_TEST_SUITE_P(Placements, TouchingBodies, testing::ValuesIn(all_touching_cases()),
+                         name_of_touching);
 
 } // namespace
 } // namespace abut::test
