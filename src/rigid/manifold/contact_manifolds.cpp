@@ -187,7 +187,8 @@ private:
             const ContactRegion& found = depth_->regions[*k];
             if (frame.crosses && !frame.is_hole && agrees(region, meetings, frame, found))
                 return false;
-            if (!depth_used_[*k])
+            if (!depth_used_[*k] &&
+                !add_along(found.direction, region, meetings, frame, found.depth))
                 manifolds_.push_back(manifold_of(found));
             depth_used_[*k] = true;
             return true;
@@ -195,6 +196,23 @@ private:
         if (frame.only_touches)
             add(region, meetings, frame, Status::bound_only);
         return frame.only_touches;
+    }
+
+    /// Adds a region with another normal, where several points along it are as deep as it should be. Returns
+    /// false, and adds nothing, if they are not.
+    bool add_along(const Vec3& normal, std::span<const TriangleMeeting> region,
+                   const TriangleMeetings& meetings, const RegionFrame& frame, double depth) {
+        constexpr double kSameDepth = 0x1p-10;
+        RegionFrame along = frame;
+        along.normal = normal, along.across = perpendicular(normal);
+        along.upwards = cross(normal, along.across);
+        along.is_given = true, along.is_hole = false;
+        const ModelManifold m =
+            choose_points(a_, b_, region, meetings, along, {margin_, last_names_});
+        if (m.count < 2 || std::abs(m.points[0].depth - depth) > kSameDepth * depth)
+            return false;
+        add(m, Status::bound_only, manifolds_);
+        return true;
     }
 
     /// The deepest region of depth_ that shares a triangle pair with a region; none if the
@@ -228,14 +246,17 @@ private:
 
     void add(std::span<const TriangleMeeting> region, const TriangleMeetings& meetings,
              const RegionFrame& frame, Status at_best = Status::exact) {
-        ModelManifold m = choose_points(a_, b_, region, meetings, frame, {margin_, last_names_});
+        add(choose_points(a_, b_, region, meetings, frame, {margin_, last_names_}), at_best,
+            frame.is_hole ? holes_ : manifolds_);
+    }
+    void add(ModelManifold m, Status at_best, std::vector<ModelManifold>& to) const {
         for (std::uint32_t i = 0; i < m.count; ++i) {
             m.points[i].point_a = m.points[i].point_a + origin_;
             m.points[i].point_b = m.points[i].point_b + origin_;
         }
         if (at_best == Status::bound_only)
             m.status = at_best;
-        (frame.is_hole ? holes_ : manifolds_).push_back(m);
+        to.push_back(m);
     }
 
     const PlacedPair& pair_;

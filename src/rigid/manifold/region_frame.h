@@ -22,6 +22,10 @@ struct RegionFrame {
     /// The curve goes around a place where the bodies do not meet: the inner border of a ring.
     bool is_hole = false;
 
+    /// The normal is not that of the triangles that meet, which only touch: where they do, lines along the
+    /// normal may be inside both bodies.
+    bool is_given = false;
+
     /// The place of a point seen along the normal, relative to the centre.
     [[nodiscard]] double right(const Vec3& p) const { return dot(across, p - centre); }
     [[nodiscard]] double up(const Vec3& p) const { return dot(upwards, p - centre); }

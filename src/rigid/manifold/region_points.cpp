@@ -17,6 +17,8 @@ namespace {
 
 /// A place on the curve is moved towards the centre by this share: there the depth is not 0.
 constexpr double kInwards = 0.125;
+/// A place where surfaces only touch, by this one: beside it a line is inside both, or outside.
+constexpr double kLittleInwards = 0x1p-6;
 /// A vertex stands for a direction if it reaches at least this far, relative to the curve.
 constexpr double kVertexReach = 0.5;
 /// A vertex that reaches farther than this, relative to the curve, is not between the surfaces.
@@ -78,18 +80,15 @@ public:
     }
 
 private:
+    enum class Among : std::uint8_t { meeting, all };
+
     void collect() {
         for (const TriangleMeeting& m : region_) {
-            has_gaps_ = has_gaps_ || is_gap(m);
+            has_gaps_ = has_gaps_ || m.is_gap();
             for (std::uint32_t i = 0; i < m.point_count; ++i)
                 collect_fixed(m.pair, meetings_.points[m.first_point + i]);
-            if (m.kind != TriangleContact::cross)
-                continue;
-            const double height = dot(frame_.normal, m.from - frame_.centre);
-            lowest_ = std::min(lowest_, height), highest_ = std::max(highest_, height);
-            take_everywhere(curve_, frame_.right(m.from), frame_.up(m.from),
-                            candidate(PointCandidate::Kind::line, m.from, m.pair,
-                                      point_name::triangles(m.pair)));
+            if (m.kind == TriangleContact::cross)
+                collect_line(m.from, m.pair, point_name::triangles(m.pair));
         }
         if (has_gaps_)
             collect_gaps();
@@ -108,9 +107,14 @@ private:
         return {kind, at, {}, pair, feature, last_.has(feature)};
     }
 
-    static bool is_gap(const TriangleMeeting& m) {
-        return m.kind == TriangleContact::none && !m.is_slight;
+    /// Collects a place that lies on both surfaces.
+    void collect_line(const Vec3& at, const TrianglePair& pair, std::uint64_t feature) {
+        const double height = dot(frame_.normal, at - frame_.centre);
+        lowest_ = std::min(lowest_, height), highest_ = std::max(highest_, height);
+        take_everywhere(curve_, frame_.right(at), frame_.up(at),
+                        candidate(PointCandidate::Kind::line, at, pair, feature));
     }
+
     /// The meeting with the longest segment or the smallest gap.
     [[nodiscard]] const TriangleMeeting& most_weighty() const {
         return *std::max_element(
@@ -120,7 +124,7 @@ private:
 
     /// Whether the points of a pair that is only near lie along the normal, to less than a right angle.
     [[nodiscard]] bool is_gap_along_normal(const TriangleMeeting& m) const {
-        return is_gap(m) && is_along_normal(m.from - m.to);
+        return m.is_gap() && is_along_normal(m.from - m.to);
     }
     /// In          way: of a gap, from b to a.
     [[nodiscard]] bool is_along_normal(const Vec3& way) const {
@@ -166,6 +170,11 @@ private:
         return any;
     }
     void collect_fixed(const TrianglePair& pair, const FixedPoint& p) {
+        if (frame_.is_given) {
+            if (p.a == p.b)
+                collect_line(p.a, pair, p.feature);
+            return;
+        }
         // A gap straight across the normal is that of another face, as of the second wall of a corner.
         // Along the normal it would look like a touch, and one against the normal like a depth.
         constexpr double kSlightGap = 0x1p8; // roundings
@@ -294,7 +303,10 @@ private:
         };
         take(lowest_b_.candidate);
         take(highest_a_.candidate);
-        if (frame_.crosses)
+        // The middle of faces that lie on each other is as deep as their corners, which carry more.
+        for (std::size_t k = 0; frame_.is_given && k < kAround; ++k)
+            take(standing_for(k, Among::meeting));
+        if (frame_.crosses || (frame_.is_given && !best))
             if (const std::optional<ContactPoint> p = deepest_inside();
                 p && (!best || p->depth > kClearlyDeeper * best->depth))
                 best = p;
@@ -336,8 +348,6 @@ private:
                tried_.begin() + tried_count_;
     }
 
-    enum class Among : std::uint8_t { meeting, all };
-
     /// The candidate for a direction: the vertex or fixed point that is farthest, unless it lies
     /// far inside the curve; else a place on the curve. Of the kind `none` if all were tried. A
     /// fixed point, whose depth may be 0, does not replace a vertex at the same place.
@@ -359,7 +369,7 @@ private:
         if (is_tried(curve.candidate.feature))
             return {};
         PointCandidate c = curve.candidate;
-        c.at = c.at + kInwards * (frame_.centre - c.at);
+        c.at = c.at + (frame_.is_given ? kLittleInwards : kInwards) * (frame_.centre - c.at);
         return c;
     }
 

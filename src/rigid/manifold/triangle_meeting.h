@@ -50,6 +50,9 @@ struct TriangleMeeting {
     /// Near, and the gap is straight across a normal, of open surfaces across both: that of a face
     /// around the corner.
     bool is_beside = false;
+
+    /// Whether the triangles are apart by more than rounding.
+    [[nodiscard]] bool is_gap() const { return kind == TriangleContact::none && !is_slight; }
 };
 
 /// The meetings of two sides and their points, sorted by pair.
