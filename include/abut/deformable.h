@@ -321,8 +321,10 @@ bool is_free_of_impacts(const Deformable& a, const Deformable& b,
 /// Errors      Error{bad_argument} if a length is negative or not finite, or if a span has another
 ///             number of entries than the surface has vertices. Error{interrupted} if the stop flag
 ///             is set.
-/// Cost        parallel (`set_threads`). No copy of the hierarchy is made, except where vertices are
-///             marked as moved: then, in O(n), of its nodes. The largest thickness widens all boxes.
+/// Cost        parallel (`set_threads`). The least thickness of a vertex widens all boxes, and a
+///             leaf's box is wider by what its thickest vertex has beyond that: one thick vertex costs
+///             what is near it. The hierarchy's nodes are copied, in O(n), where vertices differ in
+///             thickness or are marked as moved.
 /// Source      representatives as [Curtis, Tamstorf, Manocha 2008]. Certified bounds of the distance
 ///             dismiss eight pairs at a time.
 std::vector<FeaturePair> self_within(const Deformable& surface, double distance,

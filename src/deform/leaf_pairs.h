@@ -28,6 +28,8 @@ public:
     void set_until(float until) { until_ = until; }
     /// Compares the boxes at one end of the step only.
     void set_at(StepEnd end) { at_ = end; }
+    /// Another margin for the next visits.
+    void set_margin(float margin) { margin_ = margin; }
 
     bool visit(std::uint32_t i, std::uint32_t j) override {
         const bool same = pairs_.is_self() && i == j;

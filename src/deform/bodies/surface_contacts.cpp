@@ -180,7 +180,7 @@ std::vector<SurfaceContact> within(const Deformable& surface, const RigidShape& 
                                    const NearOptions& options) {
     const DeformableData& data = surface.data();
     require_valid_near(distance, true, options.vertices_b);
-    checked_thickness(options.vertices, data);
+    require_valid_vertices(options.vertices, data);
     const Transform world = world_from_body;
     const StopScope stopping(options.progress);
     const auto gaps = make_body_gaps(body, world);

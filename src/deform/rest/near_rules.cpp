@@ -15,7 +15,7 @@ void require_valid_near(double distance, bool is_one_surface, const NearVertices
         throw Error(ErrorCode::bad_argument, "one surface has no vertices_b");
 }
 
-double checked_thickness(const NearVertices& vertices, const DeformableData& surface) {
+void require_valid_vertices(const NearVertices& vertices, const DeformableData& surface) {
     const auto check = [&](const char* name, std::size_t size) {
         if (size != 0 && size != surface.vertices.size())
             throw Error(ErrorCode::bad_argument,
@@ -26,14 +26,10 @@ double checked_thickness(const NearVertices& vertices, const DeformableData& sur
     check("groups", vertices.groups.size());
     check("masks", vertices.masks.size());
     check("moved", vertices.moved.size());
-    double most = 0;
-    for (const double each : vertices.thickness) {
+    for (const double each : vertices.thickness)
         if (!(each >= 0 && std::isfinite(each)))
             throw Error(ErrorCode::bad_argument,
                         "a thickness must be a finite number of at least 0");
-        most = std::max(most, each);
-    }
-    return most;
 }
 
 } // namespace abut

@@ -72,10 +72,8 @@ private:
 ///             surface are given where there is one.
 void require_valid_near(double distance, bool is_one_surface, const NearVertices& vertices_b);
 
-/// The largest thickness; 0 if there is none.
-///
 /// Errors      Error{bad_argument} if a span has another number of entries than the surface has
 ///             vertices, or if a thickness is negative or not finite.
-double checked_thickness(const NearVertices& vertices, const DeformableData& surface);
+void require_valid_vertices(const NearVertices& vertices, const DeformableData& surface);
 
 } // namespace abut

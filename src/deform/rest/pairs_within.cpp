@@ -190,11 +190,11 @@ std::vector<FeaturePair> find_near(const DeformableData& a, const DeformableData
                           options.vertices,
                           is_self ? options.vertices : options.vertices_b,
                           options.at_end ? StepEnd::end : StepEnd::start};
-    const double thickness = checked_thickness(query.of_a, a) + checked_thickness(query.of_b, b);
+    require_valid_vertices(query.of_a, a);
+    require_valid_vertices(query.of_b, b);
 
     const StopScope stopping(options.progress);
-    const RestSearch search(a, b, query.at, margin_of(distance + thickness),
-                            {query.of_a.moved, query.of_b.moved});
+    const RestSearch search(a, b, query.at, distance, query.of_a, query.of_b);
     std::vector<std::vector<std::uint64_t>> parts(search.tasks());
     parallel_for(search.tasks(), 1, [&](std::size_t i) {
         NearPairs sink(query, parts[i]);

@@ -229,6 +229,10 @@ struct VertexFacts {
             masks.push_back(static_cast<std::uint32_t>(random.integer(0, 7)) | 1U);
             moved.push_back(random.chance(moves) ? 1 : 0);
         }
+        if (random.chance(0.3)) { // one thick vertex among thin ones
+            std::fill(thickness.begin(), thickness.end(), random.chance(0.5) ? 0 : 0.01);
+            thickness[std::size_t(random.integer(0, int(vertices) - 1))] = random.uniform(0.1, 1);
+        }
         if (random.chance(0.3))
             thickness.clear();
         if (random.chance(0.5))
