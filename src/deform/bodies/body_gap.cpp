@@ -4,6 +4,7 @@
 
 #include "convex/support/support_gap.h"
 #include "deform/bodies/deepest_place.h"
+#include "deform/bodies/model_triangles.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "rigid/model/model_data.h"
 #include "world/narrow_phase/solid_gap.h"
@@ -151,7 +152,8 @@ private:
 class ModelGaps final : public BodyGaps {
 public:
     ModelGaps(const Box3& bounds, const Model& model, const Transform& world_from_model)
-        : BodyGaps(bounds), model_(model), world_(world_from_model) {
+        : BodyGaps(bounds), model_(model), world_(world_from_model),
+          triangles_(model, world_from_model) {
         const Solid& solid = model.data().solid();
         is_solid_ = solid.closed && solid.open.empty();
     }
@@ -173,42 +175,19 @@ public:
     }
     [[nodiscard]] std::optional<PlaceNearBody> of_triangle(const Triangle& triangle,
                                                            double limit) const override {
-        Box3 box;
-        for (const Vec3& corner : triangle)
-            extend(box, corner);
-        const double reach = nearest_of_points(triangle, limit),
-                     coordinates = max_abs(box.lower) + max_abs(box.upper);
-        const Box3 near = grown(box, reach + 0x1p-40 * (reach + coordinates));
-        std::optional<PlaceNearBody> best;
-        double least = limit * limit;
-        for (const std::uint32_t other : overlapping_triangles(model_, world_, near)) {
-            const ClosestPoints closest =
-                triangle_triangle_distance(triangle, model_.data().world_triangle(other, world_));
-            if (closest.distance_sq > least || (best && closest.distance_sq == least))
-                continue;
-            least = closest.distance_sq;
-            best = place(std::sqrt(least), closest.a, closest.b, other);
-        }
-        // In a solid, the deepest vertex counts. What touches the boundary to rounding is not inside.
-        if (best && best->distance > kTellsNoDirection * coordinates && is_solid_ &&
-            contains(model_, world_, best->point).side == Side::inside)
+        const auto found = triangles_.nearest_to(triangle, limit);
+        if (!found)
             return std::nullopt;
-        return best;
+        const ClosestPoints& closest = found->closest;
+        const double distance = std::sqrt(closest.distance_sq);
+        // In a solid, the deepest vertex counts. What touches the boundary to rounding is not inside.
+        if (distance > kTellsNoDirection * (max_abs(closest.a) + max_abs(closest.b)) && is_solid_ &&
+            contains(model_, world_, closest.a).side == Side::inside)
+            return std::nullopt;
+        return place(distance, closest.a, closest.b, found->triangle);
     }
 
 private:
-    /// The distance of the nearest of some points of a triangle, at most `limit`: the triangle is no farther
-    /// away.
-    [[nodiscard]] double nearest_of_points(const Triangle& triangle, double limit) const {
-        const Vec3 middle = (1.0 / 3) * (triangle[0] + triangle[1] + triangle[2]);
-        double reach = limit;
-        for (const Vec3& p : {triangle[0], triangle[1], triangle[2], middle}) {
-            const Nearest found = nearest(model_, world_, p, {.upper_bound = reach});
-            if (found.status != Status::bound_only)
-                reach = std::min(reach, found.distance);
-        }
-        return reach;
-    }
     /// In: a signed distance. Where the points coincide to rounding, the triangle's normal is taken.
     [[nodiscard]] PlaceNearBody place(double distance, const Vec3& point, const Vec3& on_body,
                                       std::uint32_t triangle) const {
@@ -225,6 +204,7 @@ private:
 
     const Model& model_;
     Transform world_;
+    ModelTriangles triangles_;
     bool is_solid_ = false;
 };
 
