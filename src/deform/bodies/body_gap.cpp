@@ -4,7 +4,9 @@
 
 #include "convex/support/support_gap.h"
 #include "deform/bodies/deepest_place.h"
+#include "deform/bodies/inner_planes.h"
 #include "deform/bodies/model_triangles.h"
+#include "geometry/point_triangle_distance.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "rigid/model/model_data.h"
 #include "world/narrow_phase/solid_gap.h"
@@ -13,6 +15,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <utility>
 #include <variant>
 
@@ -26,49 +30,92 @@ constexpr double kTellsNoDirection = 0x1p-44;
 /// A convex body.
 class SolidGaps final : public BodyGaps {
 public:
-    SolidGaps(const Box3& bounds, const SupportShape& solid) : BodyGaps(bounds), solid_(solid) {}
+    /// In: convex, the data of a `Convex`, which must outlive this; else null.
+    SolidGaps(const Box3& bounds, const SupportShape& solid, const ConvexData* convex)
+        : BodyGaps(bounds), solid_(with_largest_radius(solid)), shape_(solid), convex_(convex) {}
 
     [[nodiscard]] std::optional<PlaceNearBody> of_point(const Vec3& point,
                                                         double limit) const override {
+        if (const auto inside = inside_planes(point))
+            return inside;
         SupportShape shape;
         shape.centre = point;
-        return place(shape, limit);
+        return place(shape, limit, SupportDepths::yes);
     }
     [[nodiscard]] std::optional<PlaceNearBody> of_triangle(const Triangle& triangle,
                                                            double limit) const override {
-        const auto shortest = place(support_of(triangle), limit);
-        if (!shortest || shortest->distance >= 0)
+        auto shortest = place(support_of(triangle), limit, SupportDepths::no);
+        if (!shortest || shortest->distance > 0)
             return shortest;
-        // A motion that parts the whole triangle from the body is no shorter than one that brings any
-        // point of it out. Both are equal unless the triangle passes through the body.
-        constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
         double size = 0;
         for (const Vec3& corner : triangle)
-            size = std::max(size, max_abs(corner - shortest->on_body));
+            size = std::max(size, max_abs(corner - shortest->point));
         const double tolerance = 0x1p-44 * size;
-        auto deepest = of_point(shortest->point, kAnyDistance);
-        if (deepest->distance > shortest->distance + tolerance) {
+        if (planes() != nullptr) {
+            // The common point of both may be off the triangle.
+            const Vec3 start = nearest_on_triangle(shortest->point, triangle).point;
+            const Vec3 place = deepest_place(
+                triangle, start, [&](const Vec3& p) { return by_planes(p); }, tolerance);
+            if (const auto inside = inside_planes(place))
+                return inside;
+        }
+        shortest = place(support_of(triangle), limit, SupportDepths::yes);
+        return shortest && shortest->distance < 0 ? deepest(triangle, *shortest, limit, tolerance)
+                                                  : shortest;
+    }
+
+private:
+    [[nodiscard]] std::optional<PlaceNearBody> place(const SupportShape& shape, double limit,
+                                                     SupportDepths depths) const {
+        Vec3 direction;
+        const SupportGap gap = support_gap(shape, solid_, limit, depths, direction);
+        if (gap.distance > limit)
+            return std::nullopt;
+        return PlaceNearBody{gap.distance, gap.point_a, gap.point_b, -gap.normal, 0};
+    }
+    /// The body's supporting planes; null if it has no such (see make_inner_planes).
+    [[nodiscard]] const InnerPlanes* planes() const {
+        std::call_once(planes_once_, [&] { planes_ = make_inner_planes(shape_, convex_); });
+        return planes_.get();
+    }
+    [[nodiscard]] ConvexSample by_planes(const Vec3& point) const {
+        const Vec3 from_centre = point - shape_.centre;
+        const SupportingPlane plane = planes_->nearest(from_centre);
+        return {dot(plane.normal, from_centre) - plane.offset, plane.normal};
+    }
+    /// The place of a point that is inside by more than rounding, if the body's planes are known.
+    [[nodiscard]] std::optional<PlaceNearBody> inside_planes(const Vec3& point) const {
+        if (!overlap(Box3{point, point}, bounds()) || planes() == nullptr)
+            return std::nullopt;
+        const auto [distance, normal] = by_planes(point);
+        if (!(distance < -kTellsNoDirection * (max_abs(point) + max_abs(shape_.centre))))
+            return std::nullopt;
+        return PlaceNearBody{distance, point, point - distance * normal, normal, 0};
+    }
+    /// The deepest point, for a body whose planes are not known. A motion that parts the whole triangle
+    /// from the body is no shorter than one that brings any point of it out. Both are equal unless the
+    /// triangle passes through the body.
+    [[nodiscard]] std::optional<PlaceNearBody> deepest(const Triangle& triangle,
+                                                       const PlaceNearBody& shortest, double limit,
+                                                       double tolerance) const {
+        constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
+        auto deepest = of_point(shortest.point, kAnyDistance);
+        if (deepest->distance > shortest.distance + tolerance) {
             const auto sample = [&](const Vec3& point) {
                 const auto at = of_point(point, kAnyDistance);
                 return ConvexSample{at->distance, at->normal};
             };
             deepest =
-                of_point(deepest_place(triangle, shortest->point, sample, tolerance), kAnyDistance);
+                of_point(deepest_place(triangle, shortest.point, sample, tolerance), kAnyDistance);
         }
         return deepest->distance <= limit ? deepest : std::nullopt;
     }
 
-private:
-    [[nodiscard]] std::optional<PlaceNearBody> place(const SupportShape& shape,
-                                                     double limit) const {
-        Vec3 direction;
-        const SupportGap gap = support_gap(shape, solid_, limit, SupportDepths::yes, direction);
-        if (gap.distance > limit)
-            return std::nullopt;
-        return PlaceNearBody{gap.distance, gap.point_a, gap.point_b, -gap.normal, 0};
-    }
-
-    SupportShape solid_;
+    SupportShape solid_; ///< for gaps
+    SupportShape shape_; ///< for planes
+    const ConvexData* convex_;
+    mutable std::once_flag planes_once_;
+    mutable std::unique_ptr<const InnerPlanes> planes_;
 };
 
 /// A ball or a capsule, in closed form: all points near a point or a segment, its core.
@@ -218,10 +265,12 @@ std::unique_ptr<const BodyGaps> make_body_gaps(const RigidShape& body,
         return std::make_unique<ModelGaps>(bounds, *model, world_from_body);
     if (const auto* plane = std::get_if<PlaneShape>(&data.shape))
         return std::make_unique<HalfSpaceGaps>(bounds, placed(*plane, world_from_body));
-    const SupportShape solid = with_largest_radius(*support_of({data.shape, world_from_body}));
-    if (RoundGaps::has_line_core(solid))
+    const SupportShape shape = *support_of({data.shape, world_from_body});
+    if (const SupportShape solid = with_largest_radius(shape); RoundGaps::has_line_core(solid))
         return std::make_unique<RoundGaps>(bounds, solid);
-    return std::make_unique<SolidGaps>(bounds, solid);
+    const auto* convex = std::get_if<ConvexShape>(&data.shape);
+    return std::make_unique<SolidGaps>(bounds, shape,
+                                       convex != nullptr ? &convex->solid.data() : nullptr);
 }
 
 } // namespace abut

@@ -2,22 +2,36 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/container/static_vector.hpp>
 #include <cstddef>
 #include <limits>
-#include <vector>
 
 namespace abut {
 
 namespace {
 
-constexpr std::size_t kMostSamples = 40;
+constexpr std::size_t kMostSamples = 80;
+/// How many bounds are kept. Three are equal at the place; a few more help a function with many faces.
+constexpr std::size_t kMostCuts = 6;
 
 using Weights = std::array<double, 3>; ///< of the triangle's corners
 
 /// Lower bounds of a function that are linear on a triangle, by their values at its corners.
 class Cuts {
 public:
-    void add(const Weights& at_corners) { cuts_.push_back(at_corners); }
+    /// In: at, the last answer. If there are too many, the bound that is lowest there makes room.
+    void add(const Weights& at_corners, const Weights& at) {
+        if (cuts_.size() == kMostCuts) {
+            const auto value = [&](const Weights& cut) {
+                return cut[0] * at[0] + cut[1] * at[1] + cut[2] * at[2];
+            };
+            const auto lowest = std::min_element(
+                cuts_.begin(), cuts_.end(),
+                [&](const Weights& c, const Weights& d) { return value(c) < value(d); });
+            cuts_.erase(lowest);
+        }
+        cuts_.push_back(at_corners);
+    }
 
     /// The weights at which the largest of the bounds is least, if the last bound is above the others
     /// at the last answer. Out: that least value.
@@ -46,7 +60,9 @@ private:
 
     void keep_lower(Best& best, const Weights& w) const {
         double largest = -std::numeric_limits<double>::infinity();
-        for (const Weights& cut : cuts_) {
+        // Most corners lie on the last bound, which alone tells of many that they are not lowest.
+        for (std::size_t i = cuts_.size(); i-- > 0;) {
+            const Weights& cut = cuts_[i];
             largest = std::max(largest, cut[0] * w[0] + cut[1] * w[1] + cut[2] * w[2]);
             if (largest >= best.value)
                 return;
@@ -78,7 +94,7 @@ private:
             keep_lower(best, w);
     }
 
-    std::vector<Weights> cuts_;
+    boost::container::static_vector<Weights, kMostCuts> cuts_;
 };
 
 } // namespace
@@ -87,7 +103,9 @@ Vec3 deepest_place(const Triangle& triangle, const Vec3& start,
                    const std::function<ConvexSample(const Vec3&)>& function, double tolerance) {
     Cuts cuts;
     Vec3 point = start, deepest = start;
+    Weights weights{}; // of `point`, but for the start
     double least = std::numeric_limits<double>::infinity();
+    double bound = -least; // a function is nowhere less
     for (std::size_t i = 0; i < kMostSamples; ++i) {
         const ConvexSample sample = function(point);
         if (sample.value < least)
@@ -95,12 +113,13 @@ Vec3 deepest_place(const Triangle& triangle, const Vec3& start,
         Weights at_corners;
         for (std::size_t k = 0; k < 3; ++k)
             at_corners[k] = sample.value + dot(sample.gradient, triangle[k] - point);
-        cuts.add(at_corners);
-        double bound = 0;
-        const Weights w = cuts.least(bound);
+        cuts.add(at_corners, weights);
+        double value = 0;
+        weights = cuts.least(value);
+        bound = std::max(bound, value);
         if (!(bound < least - tolerance))
             break;
-        point = w[0] * triangle[0] + w[1] * triangle[1] + w[2] * triangle[2];
+        point = weights[0] * triangle[0] + weights[1] * triangle[1] + weights[2] * triangle[2];
     }
     return deepest;
 }
