@@ -6,6 +6,7 @@
 #include "deform/bodies/deepest_place.h"
 #include "deform/bodies/inner_planes.h"
 #include "deform/bodies/model_triangles.h"
+#include "deform/bodies/way_out.h"
 #include "geometry/point_triangle_distance.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "rigid/model/model_data.h"
@@ -13,6 +14,7 @@
 #include "world/queries/rigid_shape_data.h"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -235,18 +237,42 @@ public:
     }
 
 private:
-    /// In: a signed distance. Where the points coincide to rounding, the triangle's normal is taken.
+    /// In: a signed distance.
     [[nodiscard]] PlaceNearBody place(double distance, const Vec3& point, const Vec3& on_body,
                                       std::uint32_t triangle) const {
-        Vec3 normal = point - on_body;
-        if (length(normal) <= kTellsNoDirection * (max_abs(point) + max_abs(on_body))) {
-            const Triangle t = model_.data().world_triangle(triangle, world_);
-            const Vec3 across = normalized_or_zero(cross(t[1] - t[0], t[2] - t[0]));
-            normal = across != Vec3{} ? across : perpendicular(t[1] - t[0]);
-        } else {
-            normal = normalized_or_zero(distance < 0 ? -normal : normal);
-        }
+        const Vec3 between = point - on_body;
+        const double rounding = kTellsNoDirection * (max_abs(point) + max_abs(on_body));
+        const Vec3 normal = length(between) <= rounding
+                                ? normal_of_touch(on_body, rounding, triangle)
+                                : normalized_or_zero(distance < 0 ? -between : between);
         return {distance, point, on_body, normal, triangle};
+    }
+    /// The way out of all triangles at a place. At a re-entrant edge, the normal of one of them may lead
+    /// into the others. Where none leads out, that of the given triangle.
+    [[nodiscard]] Vec3 normal_of_touch(const Vec3& at, double rounding,
+                                       std::uint32_t triangle) const {
+        boost::container::small_vector<Vec3, 16> normals;
+        const double reach = 2 * rounding;
+        triangles_.placed().for_each_overlap(grown(Box3{at, at}, reach), [&](std::uint32_t slot) {
+            const Triangle t = triangles_.placed().world_slot(slot);
+            if (!(nearest_on_triangle(at, t).distance_sq <= reach * reach))
+                return;
+            const Vec3 out = outward(t, triangles_.placed().data().triangle_at(slot));
+            if (out != Vec3{})
+                normals.push_back(out);
+        });
+        const Vec3 way = way_out({normals.data(), normals.size()});
+        if (way != Vec3{})
+            return way;
+        const Triangle t = model_.data().world_triangle(triangle, world_);
+        const Vec3 out = outward(t, triangle);
+        return out != Vec3{} ? out : perpendicular(t[1] - t[0]);
+    }
+    /// The normal of a triangle out of the solid, if it bounds one; zero without area.
+    [[nodiscard]] Vec3 outward(const Triangle& t, std::uint32_t number) const {
+        const Vec3 across = normalized_or_zero(cross(t[1] - t[0], t[2] - t[0]));
+        const Solid& solid = model_.data().solid();
+        return is_solid_ && solid.is_oriented() && solid.weight(number) < 0 ? -across : across;
     }
 
     const Model& model_;
