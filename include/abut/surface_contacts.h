@@ -28,8 +28,7 @@ struct SurfaceContact {
     double limit = 0;    ///< the distance up to which this contact is listed
     Vec3 point;          ///< on the surface
     Vec3 point_on_body;  ///< on the body's boundary
-    Vec3 normal;         ///< unit vector out of the body: the surface leaves it that way (see
-                         ///< Normals below)
+    Vec3 normal;         ///< unit vector out of the body: the surface leaves it that way (`within`)
     std::uint32_t triangle = 0; ///< of a model, the one that holds point_on_body; else 0
 
     friend bool operator==(const SurfaceContact&, const SurfaceContact&) = default;
@@ -49,12 +48,7 @@ struct SurfaceContact {
 /// In          distance: a length, at least 0. The limit is the distance plus the thickness of the
 ///             part, as NearVertices says. The body belongs to group 1 and meets all groups.
 ///             options.vertices_b is not to be set.
-/// Degenerate  A closed model is a solid, and negative distances of vertices are those of its
-///             boundary. An edge or a triangle inside of it has no contact of its own. Where an edge
-///             or a triangle passes through a model's surface, its distance is 0, at one of the places
-///             where it does. The distance in a convex body is that of the deepest point of a part, and
-///             the normal the direction of its shortest way out.
-/// Normals     The normal of a gap is the direction of the nearest points. A vertex inside of a solid comes
+/// Out         The normal of a gap is the direction of the nearest points. A vertex inside of a solid comes
 ///             to point_on_body by its depth along the normal; a longer way may lead into another face
 ///             beside a re-entrant edge. Where point and point_on_body are the same to rounding, so
 ///             also where a part passes through a model, the normal leaves all triangles of the model
@@ -62,6 +56,11 @@ struct SurfaceContact {
 ///             re-entrant edge it is the bisector. If no vector leaves all of them, it is the normal of
 ///             one. Outwards is out of a solid, however its triangles are oriented; of an open model it
 ///             is the side from which their vertices run counter-clockwise.
+/// Degenerate  A closed model is a solid, and negative distances of vertices are those of its
+///             boundary. An edge or a triangle inside of it has no contact of its own. Where an edge
+///             or a triangle passes through a model's surface, its distance is 0, at one of the places
+///             where it does. The distance in a convex body is that of the deepest point of a part, and
+///             the normal the direction of its shortest way out.
 /// Accuracy    to rounding: some 2^-44 of the coordinates; in cylinders, cones and ellipsoids to 1e-12
 ///             of their size. Parts whose distance is within that of the limit may be listed or not.
 /// Errors      Error{bad_argument} for the lengths and spans as `self_within`, or if a value of the

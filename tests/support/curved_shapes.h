@@ -29,6 +29,33 @@ inline Curved curved_shape(Random& random, int kind) {
         a, {random.uniform(0.1, 0.9), random.uniform(0.1, 0.9), random.uniform(0.1, 0.9)}};
 }
 
+/// How many kinds upright_solid knows. The curved ones come first.
+inline constexpr int kUprightKinds = 6, kUprightCurvedKinds = 3;
+
+/// A solid about the origin whose axis is z. Equal lengths, or lengths on a grid, make its features
+/// parallel or coincident with those of another one.
+///
+/// In          kind: 0 to 5, for a cylinder, a cone, an ellipsoid (sometimes of revolution), a ball, a
+///             capsule or a box. Shape: a variant of these. The radius of a cylinder or cone is a, and
+///             half of its height b.
+template <typename Shape>
+Shape upright_solid(Random& random, int kind, double a, double b, double c) {
+    switch (kind) {
+    case 0:
+        return Cylinder{{{0, 0, -b}, {0, 0, b}}, a};
+    case 1:
+        return Cone{{0, 0, b}, {0, 0, -b}, a};
+    case 2:
+        return Ellipsoid{{}, {a, random.chance(0.3) ? a : b, c}};
+    case 3:
+        return Sphere{{}, a};
+    case 4:
+        return Capsule{{{0, 0, -a}, {0, 0, a}}, b};
+    default:
+        return Box3{{-a, -b, -c}, {a, b, c}};
+    }
+}
+
 inline BodyShape body_shape(const Curved& curved) {
     return std::visit([](const auto& shape) { return shape_of(shape); }, curved);
 }

@@ -80,6 +80,37 @@ inline MovingMesh random_soup(Random& random, int vertices, int triangles) {
     return moving;
 }
 
+/// Triangles with sides from 1e-9 to 1 whose area is near the rounding of their corners, or 0. Many are
+/// beside a point of another one, and some have a vertex in common.
+inline MovingMesh needle_soup(Random& random, int triangles) {
+    MovingMesh moving;
+    auto& points = moving.mesh.positions;
+    for (int i = 0; i < triangles; ++i) {
+        const double size = std::pow(10, random.uniform(-9, 0));
+        const double width = random.chance(0.2) ? 0 : size * std::pow(10, -random.uniform(3, 17));
+        const Vec3 along = size * random.direction(), aside = width * random.direction();
+        Vec3 first = random.in_cube(0.5);
+        if (!points.empty() && random.chance(0.7)) {
+            const auto other = std::size_t(random.integer(0, int(points.size() / 3) - 1)) * 3;
+            const double s = random.uniform(0, 1);
+            first = points[other] + s * (points[other + 1] - points[other]) +
+                    random.in_cube(random.chance(0.3) ? 0 : std::pow(10, -random.uniform(1, 17))) -
+                    random.uniform(0, 1) * along;
+        }
+        const auto at = static_cast<std::uint32_t>(points.size());
+        points.insert(points.end(),
+                      {first, first + along, first + random.uniform(-0.2, 1.2) * along + aside});
+        std::array<std::uint32_t, 3> t{at, at + 1, at + 2};
+        if (at > 0 && random.chance(0.1))
+            t[2] = static_cast<std::uint32_t>(random.integer(0, int(at) - 1));
+        std::rotate(t.begin(), t.begin() + random.integer(0, 2), t.end());
+        moving.mesh.triangles.push_back(t);
+    }
+    for (const Vec3& p : points)
+        moving.end.push_back(p + random.in_cube(std::pow(10, -random.uniform(1, 17))));
+    return moving;
+}
+
 /// A crumpled sheet of 2 n^2 triangles that crumples further.
 inline MovingMesh crumpled_sheet(Random& random, int n, double size = 1) {
     const double bend = random.uniform(2, 5), noise = size / n;

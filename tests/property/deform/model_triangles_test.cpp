@@ -6,6 +6,7 @@
 #include "deform/bodies/model_triangles.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "math/transform.h"
+#include "tests/support/moving_meshes.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 #include "tests/support/shapes.h"
@@ -43,8 +44,10 @@ Triangle triangle_at(Random& random, const Vec3& point) {
 }
 
 Model any_model(Random& random, double& edge) {
-    const int kind = random.integer(0, 3);
+    const int kind = random.integer(0, 4);
     edge = kind == 0 ? 0.2 : 0.1;
+    if (kind == 4)
+        return Model(needle_soup(random, random.integer(1, 60)).mesh);
     if (kind == 0)
         return Model(soup_mesh(random, random.integer(1, 300), 1, 0.2));
     if (kind == 1)

@@ -182,11 +182,12 @@ void check_complete(const std::vector<SurfaceContact>& found, const KnownBody& b
 TEST(SurfaceContacts, BodiesOfAllKindsAgainstClosedForms) {
     Random random(1234);
     std::map<std::string, ContactCounts> seen;
-    for (int round = 0; round < many(100); ++round) {
+    for (int round = 0; round < many(140); ++round) {
         // Soups have triangles without area and with a repeated vertex.
-        const MovingMesh moving = random.chance(0.8)
-                                      ? crumpled_sheet(random, random.integer(1, 6))
-                                      : random_soup(random, 12, random.integer(1, 14));
+        const MovingMesh moving = random.chance(0.7) ? crumpled_sheet(random, random.integer(1, 6))
+                                  : random.chance(0.5)
+                                      ? random_soup(random, 12, random.integer(1, 14))
+                                      : needle_soup(random, random.integer(1, 20));
         const bool at_end = random.chance(0.5);
         const std::vector<Vec3>& positions = at_end ? moving.end : moving.mesh.positions;
         const Deformable surface = moving.deformable();
@@ -346,7 +347,7 @@ TEST(SurfaceContacts, ATriangleThatTouchesAModelIsNear) {
         triangle.triangles = {{0, 1, 2}};
         const auto found = within(Deformable(triangle), cube, pose, 0.1);
         ASSERT_EQ(found.size(), 1U) << kind << " at " << gap;
-        EXPECT_NEAR(found[0].distance, 0, 1e-13);
+        EXPECT_NEAR(found[0].distance, 0, 2e-13); // the gap is up to 1e-13, of 8
         ++listed;
     }
     EXPECT_EQ(listed, many(300));

@@ -4,6 +4,7 @@
 #include <abut/world.h>
 
 #include "math/transform.h"
+#include "tests/support/curved_shapes.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 #include "tests/support/support_oracle.h"
@@ -20,7 +21,7 @@ namespace abut::test {
 namespace {
 
 using AnySolid = std::variant<Cylinder, Cone, Ellipsoid, Sphere, Capsule, Box3, Convex>;
-constexpr int kCurvedKinds = 3, kKinds = 7;
+constexpr int kCurvedKinds = kUprightCurvedKinds, kKinds = kUprightKinds + 1;
 
 struct PlacedAnySolid {
     AnySolid shape;
@@ -299,26 +300,12 @@ TEST(CurvedPlacements, TrianglesOfAMeshThroughAnEllipsoid) {
 AnySolid grid_solid(Random& random, int kind, double scale) {
     const auto some = [&] { return scale * random.integer(1, 8) / 4.0; };
     const double a = some(), b = some(), c = some();
-    switch (kind) {
-    case 0:
-        return upright(a, b);
-    case 1:
-        return Cone{{0, 0, b}, {0, 0, -b}, a};
-    case 2:
-        return Ellipsoid{{}, {a, random.chance(0.3) ? a : b, c}};
-    case 3:
-        return Sphere{{}, a};
-    case 4:
-        return Capsule{{{0, 0, -a}, {0, 0, a}}, b};
-    case 5:
-        return Box3{{-a, -b, -c}, {a, b, c}};
-    default: {
-        std::vector<Vec3> points;
-        for (int i = 0; i < 12; ++i)
-            points.push_back(scale * (random.on_lattice(8) - Vec3{4, 4, 4}));
-        return Convex(points);
-    }
-    }
+    if (kind < kUprightKinds)
+        return upright_solid<AnySolid>(random, kind, a, b, c);
+    std::vector<Vec3> points;
+    for (int i = 0; i < 12; ++i)
+        points.push_back(scale * (random.on_lattice(8) - Vec3{4, 4, 4}));
+    return Convex(points);
 }
 
 Pose grid_pose(Random& random) {

@@ -4,6 +4,7 @@
 
 #include <abut/world.h>
 
+#include "tests/support/curved_shapes.h"
 #include "tests/support/kinds_of_bodies.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
@@ -129,28 +130,15 @@ double length_for(Random& random) {
 AnyShape shape_for(Random& random, int kind, double scale) {
     const double a = scale * length_for(random), b = scale * length_for(random),
                  c = scale * length_for(random);
-    switch (kind) {
-    case 0:
-        return Cylinder{{{0, 0, -b}, {0, 0, b}}, a};
-    case 1:
-        return Cone{{0, 0, b}, {0, 0, -b}, a};
-    case 2:
-        return Ellipsoid{{}, {a, random.chance(0.3) ? a : b, c}};
-    case 3:
-        return Sphere{{}, a};
-    case 4:
-        return Capsule{{{0, 0, -a}, {0, 0, a}}, b};
-    case 5:
-        return Box3{{-a, -b, -c}, {a, b, c}};
-    case 6:
+    if (kind < kUprightKinds)
+        return upright_solid<AnyShape>(random, kind, a, b, c);
+    if (kind == 6)
         return Convex(box_mesh({-a, -b, -c}, {a, b, c}).positions);
-    case 7:
+    if (kind == 7)
         return HalfSpace{{0, 0, 1}, 0};
-    default:
-        return Model(box_mesh({-a, -b, -c}, {a, b, c}));
-    }
+    return Model(box_mesh({-a, -b, -c}, {a, b, c}));
 }
-constexpr int kCurved = 3, kShapes = 9;
+constexpr int kCurved = kUprightCurvedKinds, kShapes = kUprightKinds + 3;
 
 std::array<double, 4> quarter_turn(Random& random) {
     const double h = std::sqrt(0.5);
