@@ -8,6 +8,7 @@
 #include "placement.h"
 #include "suite.h"
 #include "suites/ccd_step_rows.h"
+#include "suites/contact_rows.h"
 #include "suites/rest_rows.h"
 
 #include <algorithm>
@@ -283,6 +284,7 @@ Report run_ccd_suite(const CcdSuiteOptions& options) {
         for (const double thickness : {0.0, kThickness})
             report.rows.push_back(measure_many(kind, thickness, options));
     add_near_rows(report, options.rounds);
+    add_contact_rows(report, options.rounds);
     if (options.frames.size() % 2 != 0)
         throw Error(ErrorCode::bad_argument, "frames come in pairs: start and end of a step");
     if (!options.frames.empty() || !options.scenes.empty())

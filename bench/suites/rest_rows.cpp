@@ -115,10 +115,43 @@ Row near_row(const CcdStep& step, int rounds) {
     return row;
 }
 
+namespace {
+
+/// One vertex that is as thick as a tenth of the cloth, and all others without thickness, beside
+/// all without.
+Row thick_vertex_row(int rounds) {
+    const Mesh mesh = cloth();
+    const Deformable surface(mesh);
+    const double distance = 0.3 * mean_edge(surface, mesh.positions);
+    const std::vector<double> thin(surface.vertex_count(), 0.0);
+    std::vector<double> one_thick = thin;
+    one_thick[one_thick.size() / 2 + kCells / 2] = 0.2;
+    std::size_t pairs = 0;
+    const auto near = [&](const std::vector<double>& thickness) {
+        return self_within(surface, distance, {.vertices = {.thickness = thickness}}).size();
+    };
+    set_threads(1);
+    const Turns turns = take_turns(
+        rounds, [&] { pairs = near(one_thick); }, [&] { near(thin); });
+    set_threads(0);
+    Row row{"a cloth of 39,762 triangles with one thick vertex, near pairs at rest",
+            kMilliseconds * turns.ours,
+            "abut, without the thick vertex",
+            kMilliseconds * turns.theirs,
+            "ms",
+            1,
+            {}};
+    row.counters["near pairs"] = static_cast<double>(pairs);
+    return row;
+}
+
+} // namespace
+
 void add_near_rows(Report& report, int rounds) {
     report.rows.push_back(near_row({"a cloth of 39,762 triangles", cloth(), {}}, rounds));
     report.rows.push_back(
         near_row({"two layers of 39,762 triangles each", two_layers(0.003), {}}, rounds));
+    report.rows.push_back(thick_vertex_row(rounds));
 }
 
 void add_refresh_row(Report& report, int steps) {

@@ -322,9 +322,9 @@ bool is_free_of_impacts(const Deformable& a, const Deformable& b,
 ///             number of entries than the surface has vertices. Error{interrupted} if the stop flag
 ///             is set.
 /// Cost        parallel (`set_threads`). The least thickness of a vertex widens all boxes, and a
-///             leaf's box is wider by what its thickest vertex has beyond that: one thick vertex costs
-///             what is near it. The hierarchy's nodes are copied, in O(n), where vertices differ in
-///             thickness or are marked as moved.
+///             leaf's box is wider by what its thickest vertex has beyond that: one thick vertex
+///             costs what is near it. The hierarchy's nodes are copied, in O(n), where vertices
+///             differ in thickness or are marked as moved.
 /// Source      representatives as [Curtis, Tamstorf, Manocha 2008]. Certified bounds of the distance
 ///             dismiss eight pairs at a time.
 std::vector<FeaturePair> self_within(const Deformable& surface, double distance,

@@ -35,9 +35,9 @@ inline constexpr int kUprightKinds = 6, kUprightCurvedKinds = 3;
 /// A solid about the origin whose axis is z. Equal lengths, or lengths on a grid, make its features
 /// parallel or coincident with those of another one.
 ///
-/// In          kind: 0 to 5, for a cylinder, a cone, an ellipsoid (sometimes of revolution), a ball, a
-///             capsule or a box. Shape: a variant of these. The radius of a cylinder or cone is a, and
-///             half of its height b.
+/// In          kind: 0 to 5, for a cylinder, a cone, an ellipsoid (sometimes of revolution), a
+///             ball, a capsule or a box. Shape: a variant of these. The radius of a cylinder or
+///             cone is a, and half of its height b.
 template <typename Shape>
 Shape upright_solid(Random& random, int kind, double a, double b, double c) {
     switch (kind) {

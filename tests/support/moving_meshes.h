@@ -80,8 +80,8 @@ inline MovingMesh random_soup(Random& random, int vertices, int triangles) {
     return moving;
 }
 
-/// Triangles with sides from 1e-9 to 1 whose area is near the rounding of their corners, or 0. Many are
-/// beside a point of another one, and some have a vertex in common.
+/// Triangles with sides from 1e-9 to 1 whose area is near the rounding of their corners, or 0. Many
+/// are beside a point of another one, and some have a vertex in common.
 inline MovingMesh needle_soup(Random& random, int triangles) {
     MovingMesh moving;
     auto& points = moving.mesh.positions;

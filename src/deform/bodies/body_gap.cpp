@@ -94,9 +94,9 @@ private:
             return std::nullopt;
         return PlaceNearBody{distance, point, point - distance * normal, normal, 0};
     }
-    /// The deepest point, for a body whose planes are not known. A motion that parts the whole triangle
-    /// from the body is no shorter than one that brings any point of it out. Both are equal unless the
-    /// triangle passes through the body.
+    /// The deepest point, for a body whose planes are not known. A motion that parts the whole
+    /// triangle from the body is no shorter than one that brings any point of it out. Both are
+    /// equal unless the triangle passes through the body.
     [[nodiscard]] std::optional<PlaceNearBody> deepest(const Triangle& triangle,
                                                        const PlaceNearBody& shortest, double limit,
                                                        double tolerance) const {
@@ -247,8 +247,8 @@ private:
                                 : normalized_or_zero(distance < 0 ? -between : between);
         return {distance, point, on_body, normal, triangle};
     }
-    /// The way out of all triangles at a place. At a re-entrant edge, the normal of one of them may lead
-    /// into the others. Where none leads out, that of the given triangle.
+    /// The way out of all triangles at a place. At a re-entrant edge, the normal of one of them may
+    /// lead into the others. Where none leads out, that of the given triangle.
     [[nodiscard]] Vec3 normal_of_touch(const Vec3& at, double rounding,
                                        std::uint32_t triangle) const {
         boost::container::small_vector<Vec3, 16> normals;

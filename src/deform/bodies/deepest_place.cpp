@@ -11,7 +11,8 @@ namespace abut {
 namespace {
 
 constexpr std::size_t kMostSamples = 80;
-/// How many bounds are kept. Three are equal at the place; a few more help a function with many faces.
+/// How many bounds are kept. Three are equal at the place; a few more help a function with many
+/// faces.
 constexpr std::size_t kMostCuts = 6;
 
 using Weights = std::array<double, 3>; ///< of the triangle's corners

@@ -17,8 +17,8 @@ namespace {
 /// A hull of more faces is not listed plane by plane.
 constexpr std::size_t kMostFaces = 4096;
 
-/// Planes that are listed: those of a box or of a hull's faces. Planes of similar normals form groups;
-/// a group's bounds tell that none of it is the nearest one.
+/// Planes that are listed: those of a box or of a hull's faces. Planes of similar normals form
+/// groups; a group's bounds tell that none of it is the nearest one.
 class FacePlanes final : public InnerPlanes {
 public:
     /// In: middle, a point inside, less the shape's centre. Seen from there, offsets differ least.
@@ -160,9 +160,9 @@ private:
     double slant_;
 };
 
-/// The point of the surface nearest to y solves x_k = e_k^2 y_k / (s + e_k^2 - e_min^2), where e_k are
-/// the semi-axes and 0 <= s <= e_min^2. Along s, g = sum (x_k / e_k)^2 - 1 decreases and is convex, so
-/// that Newton's iteration from below never passes its root.
+/// The point of the surface nearest to y solves x_k = e_k^2 y_k / (s + e_k^2 - e_min^2), where e_k
+/// are the semi-axes and 0 <= s <= e_min^2. Along s, g = sum (x_k / e_k)^2 - 1 decreases and is
+/// convex, so that Newton's iteration from below never passes its root.
 class EllipsoidPlanes final : public InnerPlanes {
 public:
     explicit EllipsoidPlanes(const SupportShape& solid) : axis_(solid.axis), half_(solid.half) {}
@@ -231,8 +231,8 @@ std::unique_ptr<const InnerPlanes> planes_of_box(const SupportShape& solid) {
     return std::make_unique<FacePlanes>(planes, Vec3{});
 }
 
-/// One plane for each flat face, which holds its farthest vertex. The normal of a needle may be off: its
-/// plane is moved out to the farthest vertex of the whole hull.
+/// One plane for each flat face, which holds its farthest vertex. The normal of a needle may be
+/// off: its plane is moved out to the farthest vertex of the whole hull.
 std::unique_ptr<const InnerPlanes> planes_of_hull(const SupportShape& solid,
                                                   const ConvexData& convex) {
     const std::size_t faces = convex.face_begin.empty() ? 0 : convex.face_begin.size() - 1;

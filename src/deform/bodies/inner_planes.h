@@ -8,8 +8,8 @@
 
 namespace abut {
 
-/// A plane that a convex body lies behind and touches: dot(normal, p - centre) <= offset for all its
-/// points p.
+/// A plane that a convex body lies behind and touches: dot(normal, p - centre) <= offset for all
+/// its points p.
 struct SupportingPlane {
     Vec3 normal; ///< unit vector
     double offset = 0;
@@ -23,15 +23,15 @@ public:
     InnerPlanes& operator=(const InnerPlanes&) = delete;
     virtual ~InnerPlanes() = default;
 
-    /// Returns the plane that is nearest to a point of the solid: the depth of the point is its distance
-    /// from that plane. For a point outside, some supporting plane.
+    /// Returns the plane that is nearest to a point of the solid: the depth of the point is its
+    /// distance from that plane. For a point outside, some supporting plane.
     ///
     /// In          from_centre: the point less the shape's centre.
     /// Accuracy    every plane supports the solid to rounding; which is nearest, to rounding of the
     ///             depth.
     /// Cost        10 to 100 ns; of a hull, a nanosecond a face.
-    /// Source      an ellipsoid's nearest point as [Eberly 2013], by Newton's iteration from the side from
-    ///             which it is monotone.
+    /// Source      an ellipsoid's nearest point as [Eberly 2013], by Newton's iteration from the
+    ///             side from which it is monotone.
     [[nodiscard]] virtual SupportingPlane nearest(const Vec3& from_centre) const = 0;
 };
 

@@ -11,7 +11,8 @@
 
 namespace abut {
 
-/// The triangles of a placed model, searched for the one that is nearest to a triangle of the world.
+/// The triangles of a placed model, searched for the one that is nearest to a triangle of the
+/// world.
 class ModelTriangles {
 public:
     /// In          model: must outlive this. The transform is rigid.
@@ -27,18 +28,19 @@ public:
         std::size_t nodes = 0, triangles = 0;
     };
 
-    /// Returns the model's triangle nearest to `t`, if it is within the limit. Of several that `t` passes
-    /// through, any: the same one for the same arguments.
+    /// Returns the model's triangle nearest to `t`, if it is within the limit. Of several that `t`
+    /// passes through, any: the same one for the same arguments.
     ///
     /// In/out      work: if not null, the search adds to it.
-    /// Accuracy    the distance is that of triangle_triangle_distance, and no triangle of the model is
-    ///             nearer but for the rounding of that.
-    /// Cost        best first, eight boxes at a time; some ten nodes for a triangle beside the model.
-    /// Source      the lower bound of a box is its largest gap to the triangle along the box's axes (all
-    ///             three together), along the triangle's normal, and along the direction of the closest
-    ///             points so far: separating axes [Gottschalk, Lin, Manocha 1996], but only those that
-    ///             tell most. The normal keeps a triangle that is large beside the model from opening
-    ///             all nodes in its box.
+    /// Accuracy    the distance is that of triangle_triangle_distance, and no triangle of the model
+    ///             is nearer but for the rounding of that.
+    /// Cost        best first, eight boxes at a time; some ten nodes for a triangle beside the
+    ///             model.
+    /// Source      the lower bound of a box is its largest gap to the triangle along the box's axes
+    ///             (all three together), along the triangle's normal, and along the direction of
+    ///             the closest points so far: separating axes [Gottschalk, Lin, Manocha 1996], but
+    ///             only those that tell most. The normal keeps a triangle that is large beside the
+    ///             model from opening all nodes in its box.
     [[nodiscard]] std::optional<Found> nearest_to(const Triangle& t, double limit,
                                                   Work* work = nullptr) const;
 

@@ -29,8 +29,8 @@ public:
     }
     /// A copy of the surface's hierarchy in which each leaf's box at one end is wider by `beyond`.
     ///
-    /// Cost        O(n) for n leaves. An inner node's box encloses those of its children, so that it
-    ///             is not wider than its own vertices need.
+    /// Cost        O(n) for n leaves. An inner node's box encloses those of its children, so that
+    ///             it is not wider than its own vertices need.
     [[nodiscard]] MovingTree widened(const DeformableData& surface, StepEnd end) const;
 
 private:
@@ -39,8 +39,8 @@ private:
 };
 
 /// The margin for leaves that have nothing beyond the least thickness: the distance, and the least
-/// thickness on both sides. Limits are sums in double precision, in any order: none of their roundings
-/// exceeds the margin and what the leaves have beyond it.
+/// thickness on both sides. Limits are sums in double precision, in any order: none of their
+/// roundings exceeds the margin and what the leaves have beyond it.
 float least_margin(const LeafWidths& a, const LeafWidths& b, double distance);
 /// Upper bound of a margin plus what two leaves have beyond it.
 float widened_margin(float margin, float beyond_a, float beyond_b);

@@ -32,13 +32,13 @@ private:
 
 /// Finds the feature pairs of two surfaces, or of one surface with itself, whose boxes at one end of
 /// the step are within a distance of each other, plus the thickness of both leaves. The search is
-/// divided into tasks, which may run in any order and on any thread. It always uses the hierarchies,
-/// whatever the surfaces' scheme and culling are.
+/// divided into tasks, which may run in any order and on any thread. It always uses the
+/// hierarchies, whatever the surfaces' scheme and culling are.
 class RestSearch {
 public:
     /// In: a and b, which must outlive this; the same object for one surface with itself, whose
-    /// vertices are `of_a`. Their thicknesses and marks are used. If a vertex is marked as moved, only
-    /// pairs of leaves with a moved vertex are visited.
+    /// vertices are `of_a`. Their thicknesses and marks are used. If a vertex is marked as moved,
+    /// only pairs of leaves with a moved vertex are visited.
     RestSearch(const DeformableData& a, const DeformableData& b, StepEnd at, double distance,
                const NearVertices& of_a, const NearVertices& of_b);
     RestSearch(const RestSearch&) = delete;

@@ -1,5 +1,5 @@
-// Supporting planes of convex solids and the deepest points of triangles in them, against the shortest
-// motions that part points from solids, and against samples. Each test prints its seed.
+// Supporting planes of convex solids and the deepest points of triangles in them, against the
+// shortest motions that part points from solids, and against samples. Each test prints its seed.
 
 #include <abut/convex.h>
 
@@ -126,8 +126,8 @@ TEST(InnerPlanes, DepthsOfPointsAgainstTheShortestMotion) {
     }
 }
 
-/// The search measures a few depths. Each was a search by itself, and there was a linear program over all
-/// planes so far after each: 0.2 ms for a large triangle.
+/// The search measures a few depths. Each was a search by itself, and there was a linear program
+/// over all planes so far after each: 0.2 ms for a large triangle.
 TEST(InnerPlanes, DeepestPlacesOfTrianglesTakeFewSamples) {
     Random random(27182);
     for (int kind = 0; kind < kInnerKinds; ++kind) {

@@ -1,5 +1,5 @@
-// The triangle of a model that is nearest to a triangle, against all of them, and what it costs to find.
-// Each test prints its seed and what it has seen.
+// The triangle of a model that is nearest to a triangle, against all of them, and what it costs to
+// find. Each test prints its seed and what it has seen.
 
 #include <abut/surface_contacts.h>
 
@@ -33,7 +33,8 @@ std::vector<Triangle> world_triangles(const Model& model, const Transform& world
     return all;
 }
 
-/// A triangle of a size between a thousandth and a thousand, beside a point, and sometimes a needle.
+/// A triangle of a size between a thousandth and a thousand, beside a point, and sometimes a
+/// needle.
 Triangle triangle_at(Random& random, const Vec3& point) {
     const double size = std::pow(10, random.uniform(-3, 3));
     const double narrow = random.chance(0.3) ? std::pow(10, -random.uniform(1, 12)) : 1;
@@ -97,7 +98,8 @@ TEST(ModelTriangles, NearestAgainstAllTriangles) {
     EXPECT_GT(beyond, total / 10);
 }
 
-/// A search that looked at all triangles in the box of a large triangle took 20 ms beside this ball.
+/// A search that looked at all triangles in the box of a large triangle took 20 ms beside this
+/// ball.
 TEST(ModelTriangles, LargeTrianglesLookAtFewNodes) {
     Random random(20262);
     const Model ball(sphere_mesh(1, 142, 71));

@@ -1,5 +1,5 @@
-// Contacts at re-entrant edges and vertices of models: which way their normals lead. Each test prints its
-// seed and what it has seen.
+// Contacts at re-entrant edges and vertices of models: which way their normals lead. Each test
+// prints its seed and what it has seen.
 
 #include <abut/surface_contacts.h>
 
@@ -74,7 +74,8 @@ void check_leads_out(const NotchedPrism& prism, const SurfaceContact& c, const T
     const double distance = prism.distance(p);
     ASSERT_NEAR(c.distance, distance, 1e-13);
     ASSERT_LT(length(c.point_on_body + c.distance * c.normal - c.point), 2e-13);
-    // A way out by the depth ends on the surface, but for the rounding within which points coincide.
+    // A way out by the depth ends on the surface, but for the rounding within which points
+    // coincide.
     const double depth = std::max(-c.distance, 0.0);
     ASSERT_GE(prism.distance(p + depth * n), depth > 1e-12 ? -2e-15 : -2e-13);
     const double apart = std::abs(distance);
@@ -161,7 +162,8 @@ TEST(ReentrantContacts, EdgesAndFacesInTheNotch) {
         Mesh mesh{{apply(world, t[0]), apply(world, t[1]), apply(world, t[2])}, {{0, 1, 2}}};
         for (const SurfaceContact& c : within(Deformable(mesh), model, pose, 0.005)) {
             const Vec3 p = apply(inverse(world), c.point);
-            // Vertices are beside the prism, where its distance is another. So are the ends of the walls.
+            // Vertices are beside the prism, where its distance is another. So are the ends of the
+            // walls.
             if (c.feature == Feature::vertex || !(p.z > 0.01 && p.z < 0.99) || p.x > 0.9)
                 continue;
             // A triangle that passes through a wall by rounding may touch it anywhere.
@@ -177,8 +179,8 @@ TEST(ReentrantContacts, EdgesAndFacesInTheNotch) {
     EXPECT_GT(edges, std::size_t(many(600)) / 60);
 }
 
-/// A vertex in the innermost corner of a cube that lacks a cell, on the corner's edges, and at the end of a
-/// re-entrant edge: it leaves all faces there.
+/// A vertex in the innermost corner of a cube that lacks a cell, on the corner's edges, and at the
+/// end of a re-entrant edge: it leaves all faces there.
 TEST(ReentrantContacts, VerticesInCorners) {
     Random random(1620);
     const Mesh mesh = cells_mesh(2, [](int x, int y, int z) { return x + y + z < 3; });

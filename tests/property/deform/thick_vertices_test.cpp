@@ -1,5 +1,5 @@
-// Near pairs of surfaces with vertices of different thickness: none is lost, and a thick vertex costs
-// what is near it. Each test prints its seed and what it has seen.
+// Near pairs of surfaces with vertices of different thickness: none is lost, and a thick vertex
+// costs what is near it. Each test prints its seed and what it has seen.
 
 #include <abut/deformable.h>
 
@@ -45,8 +45,8 @@ std::vector<double> few_thick(Random& random, std::size_t vertices, int most) {
     return thickness;
 }
 
-/// The pairs of `all`, which is listed with one thickness for all vertices, that are near with their
-/// own. Distances are rounded, so no pair is to be nearer to its limit than that.
+/// The pairs of `all`, which is listed with one thickness for all vertices, that are near with
+/// their own. Distances are rounded, so no pair is to be nearer to its limit than that.
 std::vector<FeaturePair> select(const std::vector<FeaturePair>& all, double distance,
                                 const std::vector<double>& a, const std::vector<double>& b) {
     std::vector<FeaturePair> near;
