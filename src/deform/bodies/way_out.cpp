@@ -6,7 +6,7 @@ namespace abut {
 
 namespace {
 
-constexpr int kMostSteps = 200;
+constexpr int kMostSteps = 2000;
 /// A nearest point of the hull that is nearer to the origin may be the origin itself.
 constexpr double kLeastLength = 1e-2;
 

@@ -15,7 +15,8 @@ namespace abut {
 ///             without normals.
 /// Accuracy    the least dot product is at least 0.99 of the largest one, or the result is zero
 ///             although that is below 0.01.
-/// Cost        two passes over the normals for one or two faces; 200 at most.
+/// Cost        two passes over the normals for one or two faces; some hundred where all normals are
+///             nearly perpendicular to the result, and 2,000 at most.
 /// Source      the vector sought is that from the origin to the nearest point of the normals' hull,
 ///             which [Gilbert 1966] finds.
 Vec3 way_out(std::span<const Vec3> normals);
