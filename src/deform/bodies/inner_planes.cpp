@@ -40,6 +40,8 @@ public:
         }
     }
     [[nodiscard]] SupportingPlane nearest(const Vec3& p) const override {
+        // Clearing all of it would cost more than filling in those of a few groups.
+        // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
         std::array<double, kMostFaces / kGroup> bounds;
         const Vec3 from_middle = p - middle_;
         std::size_t likely = 0;
@@ -113,7 +115,7 @@ public:
 protected:
     /// A point as height along the axis, distance from it, and the unit vector from it.
     struct Place {
-        double height, from_axis;
+        double height = 0, from_axis = 0;
         Vec3 out;
     };
     [[nodiscard]] Place place(const Vec3& p) const {
