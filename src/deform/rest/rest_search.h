@@ -92,11 +92,11 @@ void RestSearch::run(std::size_t task, Sink& sink) const {
     class Visitor final : public OverlapVisitor {
     public:
         Visitor(const RestSearch& search, Pass pass, RepresentativePairs<Sink>& pairs)
-            : search_(search), pass_(pass), pairs_(pairs) {}
+            : search_(search), pass_(pass), pairs_(pairs), one_margin_(search.has_one_margin()) {}
         bool visit(std::uint32_t a, std::uint32_t b) override {
             if (search_.is_visited_elsewhere(pass_, a, b))
                 return true;
-            if (!search_.has_one_margin())
+            if (!one_margin_)
                 pairs_.set_margin(widened_margin(search_.margin_, search_.widths_a_.beyond(a),
                                                  search_.widths_b().beyond(b)));
             return pairs_.visit(a, b);
@@ -106,6 +106,7 @@ void RestSearch::run(std::size_t task, Sink& sink) const {
         const RestSearch& search_;
         Pass pass_;
         RepresentativePairs<Sink>& pairs_;
+        bool one_margin_;
     };
 
     const Start& start = starts_[task];
