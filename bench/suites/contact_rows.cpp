@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::uint32_t kContactTriangles = 2000;
 
-/// Triangles whose middles are above the unit sphere by random heights, and whose planes are parallel to it
-/// there.
+/// Triangles whose middles are above the unit sphere by random heights, and whose planes are
+/// parallel to it there.
 Deformable triangles_around(double size, double lowest, double highest) {
     std::mt19937_64 engine(7);
     const auto uniform = [&](double low, double high) {
