@@ -17,6 +17,11 @@ double reach_along(const RoundedBox& box, const Vec3& direction) {
     return sum;
 }
 
+/// The square with the sign of the number. It orders numbers as they are.
+double signed_square(double x) {
+    return x * std::abs(x);
+}
+
 /// The result for the axis of a number: 0 to 2 are those of a, 3 to 5 those of b, then come the cross products.
 ///
 /// In          overlap: along that axis. way: from a to b, positive or negative as along the axis.
@@ -24,7 +29,7 @@ LeastOverlap overlap_along(const RoundedBox& a, const RoundedBox& b, std::size_t
                            double overlap, double way) {
     using Kind = LeastOverlap::Kind;
     LeastOverlap result;
-    result.overlap = overlap;
+    result.overlap = overlap, result.axis = static_cast<std::uint8_t>(number);
     result.kind = number < 3 ? Kind::face_a : number < 6 ? Kind::face_b : Kind::edges;
     Vec3 along;
     if (number < 6) {
@@ -43,17 +48,18 @@ LeastOverlap overlap_along(const RoundedBox& a, const RoundedBox& b, std::size_t
 
 } // namespace
 
-// All axes share the scalar products of the boxes' own axes.
 LeastOverlap least_overlap(const RoundedBox& a, const RoundedBox& b, double farthest) {
-    const Vec3 d = b.centre - a.centre;
-    // b's axes in a's frame, and their magnitudes; the vector to b along each axis of a and b.
-    double turn[3][3], size[3][3], way[6];
-    for (std::size_t i = 0; i < 3; ++i) {
-        way[i] = dot(d, a.axis[i]);
-        way[3 + i] = dot(d, b.axis[i]);
+    return least_overlap(a, b, BoxAxes(a, b), farthest);
+}
+
+LeastOverlap least_overlap(const RoundedBox& a, const RoundedBox& b, const BoxAxes& axes,
+                           double farthest) {
+    const auto& turn = axes.turn;
+    const auto& way = axes.way;
+    double size[3][3];
+    for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < 3; ++k)
-            turn[i][k] = dot(a.axis[i], b.axis[k]), size[i][k] = std::abs(turn[i][k]);
-    }
+            size[i][k] = std::abs(turn[i][k]);
     double least = std::numeric_limits<double>::infinity(), least_way = 0;
     std::size_t best = 0;
     // Values are chosen: a branch would be taken at random.
@@ -75,24 +81,23 @@ LeastOverlap least_overlap(const RoundedBox& a, const RoundedBox& b, double fart
             reach_a += size[i][k] * a.half[i];
         keep_face(reach_a + b.half[k], 3 + k);
     }
-    const bool far_apart = least < -farthest;
-    for (std::size_t i = 0; i < 3 && !far_apart; ++i)
+    if (least < -farthest)
+        return overlap_along(a, b, best, least, least_way);
+    // Overlaps along cross products are compared by their squares, without roots.
+    double least_sq = signed_square(least);
+    for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, k1 = (k + 1) % 3,
                               k2 = (k + 2) % 3;
             const double reach_a = a.half[i1] * size[i2][k] + a.half[i2] * size[i1][k];
             const double reach_b = b.half[k1] * size[i][k2] + b.half[k2] * size[i][k1];
             const double across = way[i2] * turn[i1][k] - way[i1] * turn[i2][k];
-            // The cross product is not longer than 1: divided by its length, an overlap does not shrink.
-            const double overlap = reach_a + reach_b - std::abs(across);
-            if (overlap > 0 && overlap >= least)
-                continue;
+            // That of the cross product, which is not a unit vector.
+            const double overlap_sq = signed_square(reach_a + reach_b - std::abs(across));
             const double sq = turn[i1][k] * turn[i1][k] + turn[i2][k] * turn[i2][k];
             // For nearly parallel edges, the face axes already tell what their cross product would.
-            if (!(sq > 0x1p-40))
-                continue;
-            if (const double unit = overlap / std::sqrt(sq); unit < least)
-                least = unit, least_way = across, best = 6 + 3 * i + k;
+            if (overlap_sq < least_sq * sq && sq > 0x1p-40)
+                least_sq = overlap_sq / sq, least_way = across, best = 6 + 3 * i + k;
         }
     return overlap_along(a, b, best, least, least_way);
 }

@@ -343,9 +343,9 @@ SolidGap capsule_distance(const Sphere& a, const Vec3& half_a, const Sphere& b, 
     const double size = max_abs(u) + max_abs(v);
     Vec3 normal;
     if (distance > kClearShare * size) {
-        if (const double apart = distance - a.radius - b.radius; apart > upper_bound)
-            return {apart, {}, {}, {}};
         normal = (1 / distance) * way;
+        if (const double apart = distance - a.radius - b.radius; apart > upper_bound)
+            return {apart, {}, {}, normal};
     } else {
         normal = normal_of_touching(u, v, closest, way, kBoxGapRounding * (size + max_abs(r)));
         distance = std::max(dot(way, normal), 0.0);

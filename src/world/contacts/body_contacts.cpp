@@ -3,6 +3,7 @@
 #include "convex/body/convex_data.h"
 #include "convex/hull/placed_polytope.h"
 #include "core/borrowed.h"
+#include "geometry/known_separation.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "math/transform.h"
 #include "math/vector.h"
@@ -23,7 +24,6 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <variant>
 
@@ -219,10 +219,16 @@ void exchange_bodies(ContactManifold& manifold) {
 /// Whether b comes first in the order in which gap_between measures.
 bool b_comes_first(const PlacedBody& a, const PlacedBody& b) {
     const RoundedBox &box_a = *a.box_in_world, &box_b = *b.box_in_world;
-    const auto size_a = std::tie(box_a.half, box_a.radius),
-               size_b = std::tie(box_b.half, box_b.radius);
-    if (size_a != size_b)
-        return size_b < size_a;
+    for (std::size_t k = 0; k < 3; ++k)
+        if (box_a.half[k] != box_b.half[k])
+            return box_b.half[k] < box_a.half[k];
+    if (box_a.radius != box_b.radius)
+        return box_b.radius < box_a.radius;
+    // Equal shapes differ by their placements.
+    const auto &m_a = a.world_from_body.m, &m_b = b.world_from_body.m;
+    for (std::size_t k = 0; k < m_a.size(); ++k)
+        if (m_a[k] != m_b[k])
+            return m_b[k] < m_a[k];
     return comes_before(std::get<RoundedBox>(b.shape), b.world_from_body,
                         std::get<RoundedBox>(a.shape), a.world_from_body);
 }
@@ -231,6 +237,7 @@ bool b_comes_first(const PlacedBody& a, const PlacedBody& b) {
 void append_box_contact(const PlacedBody& a, const PlacedBody& b, double margin,
                         PairWarmStart& warm_start, std::vector<ContactManifold>& manifolds) {
     const RoundedBox &box_a = *a.box_in_world, &box_b = *b.box_in_world;
+    KnownSeparation& separation = warm_start.separation;
     // Those that rounding puts beyond the margin are looked at too; is_within decides.
     const double doubt = 2 * (contact_share(box_a) + contact_share(box_b));
     const double at_most = margin + doubt;
@@ -239,10 +246,13 @@ void append_box_contact(const PlacedBody& a, const PlacedBody& b, double margin,
     if (b_comes_first(a, b)) {
         auto last = warm_start.points;
         std::transform(last.begin(), last.end(), last.begin(), turned_round);
-        if (!rounded_box_contact(box_b, box_a, at_most, {last.data(), last.size()}, manifolds))
+        const bool found = rounded_box_contact(box_b, box_a, at_most, {last.data(), last.size()},
+                                               separation, manifolds);
+        separation.exchange();
+        if (!found)
             return;
         exchange_bodies(manifolds.back());
-    } else if (!rounded_box_contact(box_a, box_b, at_most, names_of(warm_start), manifolds)) {
+    } else if (!rounded_box_contact(box_a, box_b, at_most, names_of(warm_start), separation, manifolds)) {
         return;
     }
     keep_within_margin(a, b, margin, doubt, warm_start, first, manifolds);
@@ -360,6 +370,10 @@ void append_contacts(const BodiesInContact& bodies, double margin, PairWarmStart
     const PlacedBody &a = bodies.a, &b = bodies.b;
     const std::size_t first = manifolds.size();
     if (a.box_in_world != nullptr && b.box_in_world != nullptr) {
+        if (is_apart(warm_start.separation, *a.box_in_world, *b.box_in_world, margin)) {
+            warm_start.points.clear();
+            return;
+        }
         append_box_contact(a, b, margin, warm_start, manifolds);
     } else if ((is_surface(a.shape) || is_surface(b.shape)) &&
                append_rounded_contact(a, b, margin, warm_start, manifolds)) {

@@ -95,14 +95,14 @@ void set_corners_and_witness(const ContactFace& a, const ContactFace& b, const C
 }
 
 bool rounded_box_contact(const RoundedBox& a, const RoundedBox& b, double margin,
-                         std::span<const std::uint64_t> last,
+                         std::span<const std::uint64_t> last, KnownSeparation& separation,
                          std::vector<ContactManifold>& manifolds) {
     const ContactLimits limits{
         margin, 0x1p-46 * (length(b.centre - a.centre) + size_of(a) + size_of(b)), last};
     if (is_segment(a) && is_segment(b))
-        return contact_of_capsules(a, b, limits, manifolds);
+        return contact_of_capsules(a, b, limits, separation, manifolds);
     if (is_plain_box(a) && is_plain_box(b)) {
-        if (const BoxContact found = contact_of_boxes(a, b, limits, manifolds);
+        if (const BoxContact found = contact_of_boxes(a, b, limits, separation, manifolds);
             found != BoxContact::unknown)
             return found == BoxContact::written;
     } else if (!has_no_extent(a) && !has_no_extent(b)) {

@@ -2,6 +2,7 @@
 
 #include <abut/contacts.h>
 
+#include "geometry/known_separation.h"
 #include "geometry/rounded_box_distance.h"
 #include "world/contacts/contact_candidates.h"
 #include "world/contacts/contact_face.h"
@@ -34,9 +35,10 @@ void set_corners_and_witness(const ContactFace& a, const ContactFace& b, const C
 /// Appends it, without ids, and returns true if they are at most the margin apart.
 ///
 /// In          last: the names of points of the last step.
+/// Out         separation: what separates two boxes or two capsules, or nothing.
 /// Accuracy    the normal is that of `rounded_box_distance`.
 bool rounded_box_contact(const RoundedBox& a, const RoundedBox& b, double margin,
-                         std::span<const std::uint64_t> last,
+                         std::span<const std::uint64_t> last, KnownSeparation& separation,
                          std::vector<ContactManifold>& manifolds);
 
 } // namespace abut

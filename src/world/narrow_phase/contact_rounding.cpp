@@ -13,13 +13,6 @@ namespace abut {
 
 namespace {
 
-/// The rounding of a gap, relative to the sizes of both bodies. A coordinate of a placed body is a
-/// sum of three products, rounded by at most 2^-51 of its size; a gap is a difference of two such
-/// coordinates along a direction that is rounded as much. Searches end at about 2^-48 (kRoundings of
-/// support_pair.cpp) of the sizes and of the distance of the centres, which for bodies that touch is
-/// at most the sizes again.
-constexpr double kContactRounding = 0x1p-46;
-
 /// The numbers that distinguish bodies: those of the shape first, because they never change.
 template <typename Solid>
 auto order_of(const Solid& solid, const Transform& world_from_body) {
@@ -50,10 +43,6 @@ double contact_share(const Model& model) {
 
 double contact_share(const ConvexShape& convex) {
     return kContactRounding * convex.solid.data().reach;
-}
-
-double contact_share(const RoundedBox& box) {
-    return kContactRounding * (box.half[0] + box.half[1] + box.half[2] + box.radius);
 }
 
 double contact_share(const CurvedShape& curved) {

@@ -4,6 +4,7 @@
 #include <abut/model_contacts.h>
 #include <abut/rigid.h>
 
+#include "geometry/known_separation.h"
 #include "world/narrow_phase/body.h"
 
 #include <boost/container/static_vector.hpp>
@@ -42,6 +43,7 @@ struct PairWarmStart {
     RegionsOfPair regions;
     /// The names of the points of other bodies at the last query of contacts.
     boost::container::static_vector<std::uint64_t, 4> points;
+    KnownSeparation separation; ///< of two boxes or capsules at the last query of contacts
 };
 
 /// Whether two bodies share a point.

@@ -19,9 +19,9 @@ struct BoxFace {
     bool positive = false;    ///< whether the normal is that axis, not its negative
     std::size_t u = 0, v = 0; ///< the other axes; u x v is along the outward normal
     std::uint32_t side = 0;   ///< the vertex number where both coordinates in the face are negative
+    std::array<double, 3> along{}; ///< the direction along the box's axes
 
     BoxFace(const RoundedBox& box, const Vec3& direction) {
-        std::array<double, 3> along{};
         for (std::size_t i = 0; i < 3; ++i) {
             along[i] = dot(direction, box.axis[i]);
             if (std::abs(along[i]) > std::abs(along[k]))

@@ -2,6 +2,7 @@
 
 #include <abut/contacts.h>
 
+#include "geometry/known_separation.h"
 #include "geometry/rounded_box_distance.h"
 #include "world/solids/write_points.h"
 
@@ -20,11 +21,12 @@ enum class BoxContact : std::uint8_t {
 /// The contact of two boxes along the axis on which they overlap least. Ids are not set.
 ///
 /// In          a, b: in the world, with an extent on each axis and without a radius.
-/// Out         a manifold is appended only if it is written.
+/// Out         a manifold is appended only if it is written. separation: an axis that separates the
+///             boxes, or none.
 /// Cost        about 0.3 us; no allocation.
 /// Source      separating axes [Gottschalk, Lin, Manocha 1996]; [Sutherland, Hodgman 1974].
 BoxContact contact_of_boxes(const RoundedBox& a, const RoundedBox& b, const ContactLimits& limits,
-                            std::vector<ContactManifold>& manifolds);
+                            KnownSeparation& separation, std::vector<ContactManifold>& manifolds);
 
 /// Whether the box has an extent on each axis and no radius.
 inline bool is_plain_box(const RoundedBox& box) {

@@ -2,6 +2,7 @@
 
 #include <abut/contacts.h>
 
+#include "geometry/known_separation.h"
 #include "geometry/rounded_box_distance.h"
 #include "world/solids/write_points.h"
 
@@ -13,14 +14,10 @@ namespace abut {
 /// else nothing is appended.
 ///
 /// In          a, b: in the world, each with an extent on one axis.
+/// Out         separation: the direction of the gap if it is larger than the margin, or none.
 /// Accuracy    the normal is that of `rounded_box_distance`.
 /// Cost        about 0.2 us; no allocation.
 bool contact_of_capsules(const RoundedBox& a, const RoundedBox& b, const ContactLimits& limits,
-                         std::vector<ContactManifold>& manifolds);
-
-/// Whether the box has an extent on one axis only.
-inline bool is_segment(const RoundedBox& box) {
-    return (box.half[0] > 0) + (box.half[1] > 0) + (box.half[2] > 0) == 1;
-}
+                         KnownSeparation& separation, std::vector<ContactManifold>& manifolds);
 
 } // namespace abut

@@ -98,18 +98,16 @@ private:
         return std::max({across(0, 1, 2, 3), across(0, 2, 1, 3), across(0, 3, 1, 2)});
     }
 
-    /// Takes the point for which a function is largest.
+    /// Takes the point for which a function is largest; of equal ones, the first.
     template <typename Merit>
     void take(const Merit& merit) {
         std::size_t best = 0;
         double most = -HUGE_VAL;
-        bool found = false;
+        // Values are chosen: a branch would be taken at random.
         for (std::size_t i = 0; i < points_.size(); ++i) {
-            if (states_[i].is_taken)
-                continue;
-            const double here = merit(points_[i], i);
-            if (!found || here > most)
-                best = i, most = here, found = true;
+            const double here = states_[i].is_taken ? -HUGE_VAL : merit(points_[i], i);
+            best = here > most ? i : best;
+            most = std::max(here, most);
         }
         chosen_[count_++] = best;
         states_[best].is_taken = true;
@@ -132,6 +130,27 @@ private:
     std::size_t count_ = 0;
 };
 
+/// Sorts the places of up to four points; those of equal depth keep their order. Ranks are counted: a branch
+/// would be taken at random.
+void put_deepest_first(std::span<const RegionPoint> points,
+                       boost::container::static_vector<std::size_t, 4>& places) {
+    const std::size_t count = places.size();
+    // Places beyond the count are the least deep.
+    std::array<double, 4> depths;
+    std::array<std::size_t, 4> ranks{}, sorted;
+    for (std::size_t i = 0; i < 4; ++i)
+        depths[i] = i < count ? points[places[i]].depth : -HUGE_VAL;
+    for (std::size_t i = 1; i < 4; ++i)
+        for (std::size_t k = 0; k < i; ++k) {
+            const std::size_t is_deeper = depths[i] > depths[k] ? 1 : 0;
+            ranks[k] += is_deeper, ranks[i] += 1 - is_deeper;
+        }
+    for (std::size_t i = 0; i < 4; ++i)
+        sorted[ranks[i]] = i < count ? places[i] : 0;
+    for (std::size_t i = 0; i < count; ++i)
+        places[i] = sorted[i];
+}
+
 } // namespace
 
 boost::container::static_vector<std::size_t, 4> four_points(std::span<const RegionPoint> points,
@@ -145,10 +164,7 @@ boost::container::static_vector<std::size_t, 4> four_points(std::span<const Regi
         for (std::size_t i = 0; i < points.size(); ++i)
             result.push_back(i);
     }
-    // Four at most: std::stable_sort would allocate a buffer.
-    for (std::size_t i = 1; i < result.size(); ++i)
-        for (std::size_t k = i; k > 0 && points[result[k]].depth > points[result[k - 1]].depth; --k)
-            std::swap(result[k], result[k - 1]);
+    put_deepest_first(points, result);
     return result;
 }
 
