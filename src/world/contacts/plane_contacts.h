@@ -14,7 +14,7 @@ ContactFace corners_over_plane(const PlacedModel& surface, const PlaneShape& pla
                                const Vec3& origin);
 
 /// Sets the points of the contact of a body and a half-space: of its corners that are at most the margin
-/// over the plane, those that keep_four keeps.
+/// over the plane, those that four_points chooses.
 ///
 /// In          corners: relative to the deepest point. manifold: with this point, and the normal from a to
 ///             b. It keeps its depth and status.

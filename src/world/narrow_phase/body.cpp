@@ -193,10 +193,14 @@ BodyShape shape_of(std::shared_ptr<const Deformable> surface) {
 
 RoundedBox placed(const RoundedBox& box, const Transform& world_from_body) {
     RoundedBox result = box;
-    result.centre = apply(world_from_body, box.centre);
-    for (Vec3& axis : result.axis)
-        axis = apply_linear(world_from_body, axis);
+    place(result, box, world_from_body);
     return result;
+}
+
+void place(RoundedBox& in_world, const RoundedBox& box, const Transform& world_from_body) {
+    in_world.centre = apply(world_from_body, box.centre);
+    for (std::size_t k = 0; k < 3; ++k)
+        in_world.axis[k] = apply_linear(world_from_body, box.axis[k]);
 }
 
 SupportShape placed(const CurvedShape& curved, const Transform& world_from_body) {

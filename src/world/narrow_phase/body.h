@@ -77,6 +77,8 @@ BodyShape shape_of(const Ellipsoid& ellipsoid);
 BodyShape shape_of(const HalfSpace& half_space);
 BodyShape shape_of(std::shared_ptr<const Deformable> surface);
 
+/// Places a box in the world, in memory that has its sizes already.
+void place(RoundedBox& in_world, const RoundedBox& box, const Transform& world_from_body);
 /// The shape under a rotation and translation, in the world.
 RoundedBox placed(const RoundedBox& box, const Transform& world_from_body);
 SupportShape placed(const CurvedShape& curved, const Transform& world_from_body);

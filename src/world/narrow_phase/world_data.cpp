@@ -101,6 +101,8 @@ std::uint32_t WorldData::add_piece(BodyShape shape, const Pose& pose,
     Body& to = bodies_[id.index];
     to.own_bounds = bounds_of(shape);
     to.shape = std::move(shape);
+    if (const auto* rounded = std::get_if<RoundedBox>(&to.shape))
+        to.box_in_world = *rounded; // its sizes stay when it moves
     to.pose = pose, to.world_from_body = world_from_body;
     to.options = options;
     to.generation = id.generation, to.alive = true, to.seen = false;
@@ -188,7 +190,7 @@ void WorldData::fit_box(std::uint32_t index) {
     const auto* rounded = std::get_if<RoundedBox>(&body.shape);
     body.is_box = rounded != nullptr;
     if (body.is_box)
-        body.box_in_world = abut::placed(*rounded, body.world_from_body);
+        place(body.box_in_world, *rounded, body.world_from_body);
     const Box3 box = body.is_box ? bounds_of(body.box_in_world)
                                  : bounds_of(body.shape, body.own_bounds, body.world_from_body);
     boxes_[index] = is_empty(box) ? box : grown(box, contact_share(body.shape, body.own_bounds));

@@ -14,7 +14,7 @@ void write_region(const BoxRegion& region, const Vec3& normal, const ContactLimi
                   ContactManifold& manifold) {
     manifold.normal = normal;
     for (const std::size_t i :
-         four_points({region.corners.data(), region.corners.size()}, limits.rounding, limits.last)) {
+         four_points({region.corners.data(), region.count}, limits.rounding, limits.last)) {
         const RegionPoint& corner = region.corners[i];
         const Vec3 on_reference = region.on_reference(i), way = corner.depth * normal;
         ContactPoint& point = manifold.points[manifold.count++];

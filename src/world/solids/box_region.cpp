@@ -144,10 +144,6 @@ Seen operator+(const Seen& p, const Seen& q) {
 Seen operator-(const Seen& p, const Seen& q) {
     return {p.x - q.x, p.y - q.y};
 }
-double dot(const Seen& p, const Seen& q) {
-    return p.x * q.x + p.y * q.y;
-}
-
 /// The rectangle around the corners of a region, seen along the normal.
 struct SeenRectangle {
     double low_x = HUGE_VAL, low_y = HUGE_VAL, high_x = -HUGE_VAL, high_y = -HUGE_VAL;
@@ -164,33 +160,55 @@ struct CornerAt {
     double distance_sq;
 };
 
-/// A side, seen along the normal: a parallelogram.
+/// A side, seen along the normal.
 class SeenSide {
 public:
     SeenSide(const Seen& middle, const Seen& half_u, const Seen& half_v)
-        : middle_(middle), half_u_(half_u), half_v_(half_v), product_(dot(half_u, half_v)),
-          corners_{middle + half_u + half_v, middle - half_u + half_v, middle - half_u - half_v,
+        : corners_{middle + half_u + half_v, middle - half_u + half_v, middle - half_u - half_v,
                    middle + half_u - half_v} {}
 
+    /// Finds the corners that may take part in names: those near the region.
+    void find_near(const SeenRectangle& around) {
+        // At least the distance within which a vertex takes part: see name_reach_sq.
+        const double reach =
+            kNamedShare * ((around.high_x - around.low_x) + (around.high_y - around.low_y));
+        const double low_x = around.low_x - reach, high_x = around.high_x + reach,
+                     low_y = around.low_y - reach, high_y = around.high_y + reach;
+        for (std::uint32_t i = 0; i < 4; ++i) {
+            const Seen& p = corners_[i];
+            near_[near_count_] = i;
+            near_count_ += static_cast<std::uint32_t>(p.x >= low_x) &
+                           static_cast<std::uint32_t>(p.x <= high_x) &
+                           static_cast<std::uint32_t>(p.y >= low_y) &
+                           static_cast<std::uint32_t>(p.y <= high_y);
+        }
+    }
+    /// The corner of those near the region that is nearest to a place.
+    [[nodiscard]] CornerAt nearest_near(const Seen& p) const {
+        CornerAt best{0, HUGE_VAL};
+        for (std::uint32_t i = 0; i < near_count_; ++i)
+            take_nearer(near_[i], p, best);
+        return best;
+    }
     /// The corner that is nearest to a place.
     [[nodiscard]] CornerAt nearest(const Seen& p) const {
-        // From a corner s u + t v, where s and t are signs, the square of the distance of r is
-        //     r^2 + u^2 + v^2 - 2 (s r.u + t r.v - s t u.v)
-        const Seen r = p - middle_;
-        const double along_u = dot(r, half_u_), along_v = dot(r, half_v_);
-        const double sum = along_u + along_v, difference = along_u - along_v;
-        const bool same_signs = std::abs(sum) - product_ >= std::abs(difference) + product_;
-        // Values are chosen: a branch would be taken at random.
-        const std::uint32_t same = sum >= 0 ? 0 : 2, other = difference >= 0 ? 3 : 1;
-        const std::uint32_t corner = same_signs ? same : other;
-        const Seen way = corners_[corner] - p;
-        return {corner, dot(way, way)};
+        CornerAt best{0, HUGE_VAL};
+        for (std::uint32_t i = 0; i < 4; ++i)
+            take_nearer(i, p, best);
+        return best;
     }
 
 private:
-    Seen middle_, half_u_, half_v_;
-    double product_;
+    void take_nearer(std::uint32_t i, const Seen& p, CornerAt& best) const {
+        // Values are chosen: a branch would be taken at random.
+        const double dx = corners_[i].x - p.x, dy = corners_[i].y - p.y, sq = dx * dx + dy * dy;
+        best.corner = sq < best.distance_sq ? i : best.corner;
+        best.distance_sq = std::min(sq, best.distance_sq);
+    }
+
     Seen corners_[4];
+    std::uint32_t near_[5]{}; ///< the last place is written but not kept
+    std::uint32_t near_count_ = 0;
 };
 
 /// The number of a side's corner as a vertex of its box, and of its edge.
@@ -228,12 +246,12 @@ public:
         // The cut side runs around the incident side as its corners do, and against those of the reference. So
         // between two edges of one side that follow each other is a corner of it.
         const std::uint32_t now = edge % 4, before = last % 4;
-        const CornerAt near_reference = !crosses && of_reference && before == (now + 1) % 4
+        CornerAt near_reference = !crosses && of_reference && before == (now + 1) % 4
                                             ? CornerAt{before, 0}
-                                            : reference_.nearest(at);
-        const CornerAt near_incident = !crosses && !of_reference && now == (before + 1) % 4
+                                            : reference_.nearest_near(at);
+        CornerAt near_incident = !crosses && !of_reference && now == (before + 1) % 4
                                            ? CornerAt{now, 0}
-                                           : incident_.nearest(at);
+                                           : incident_.nearest_near(at);
         bool at_reference = near_reference.distance_sq <= reach_sq_,
              at_incident = near_incident.distance_sq <= reach_sq_;
         if (!at_reference && !at_incident) {
@@ -243,6 +261,8 @@ public:
                              edge_of(sides_.incident, of_reference ? before : now));
             // Edges of one side that do not follow each other, to rounding: its nearest vertex names the place.
             at_reference = of_reference, at_incident = !of_reference;
+            (of_reference ? near_reference : near_incident) =
+                (of_reference ? reference_ : incident_).nearest(at);
         }
         const FeatureKind kind = at_reference && at_incident       ? FeatureKind::vertices
                                  : at_reference == reference_is_a_ ? FeatureKind::vertex_of_a
@@ -290,28 +310,29 @@ BoxRegion::BoxRegion(const RoundedBox& a, const RoundedBox& b, const BoxAxes& ax
         at[i] = seen(cut[i].u, cut[i].v);
         around.extend(at[i]);
     }
-    const SeenSide reference({0, 0}, seen(sides.half_u, 0), seen(0, sides.half_v));
-    const SeenSide incident(seen(sides.middle.u, sides.middle.v),
+    SeenSide reference({0, 0}, seen(sides.half_u, 0), seen(0, sides.half_v));
+    SeenSide incident(seen(sides.middle.u, sides.middle.v),
                             seen(sides.edge_u.u, sides.edge_u.v),
                             seen(sides.edge_v.u, sides.edge_v.v));
+    reference.find_near(around), incident.find_near(around);
     const RegionNames names(sides, cut, reference_is_a, reference, incident, around);
     for (std::size_t i = 0; i < cut.size(); ++i) {
         const double depth = -cut[i].height;
         if (!(depth >= least_depth))
             continue;
         deepest = std::max(deepest, depth);
-        add({at[i].x, at[i].y, depth, names.name(i, at[i])}, {cut[i].u, cut[i].v});
+        // Of corners with the same name, the deepest remains.
+        const std::uint64_t name = names.name(i, at[i]);
+        std::size_t place = 0;
+        while (place < count && corners[place].feature != name)
+            ++place;
+        if (place < count && !(depth > corners[place].depth))
+            continue;
+        count = std::max(count, place + 1);
+        RegionPoint& corner = corners[place];
+        corner.x = at[i].x, corner.y = at[i].y, corner.depth = depth, corner.feature = name;
+        along_u[place] = cut[i].u, along_v[place] = cut[i].v;
     }
-}
-
-void BoxRegion::add(const RegionPoint& corner, const Place& place) {
-    for (std::size_t i = 0; i < corners.size(); ++i)
-        if (corners[i].feature == corner.feature) {
-            if (corner.depth > corners[i].depth)
-                corners[i] = corner, places[i] = place;
-            return;
-        }
-    places.push_back(place), corners.push_back(corner);
 }
 
 } // namespace abut

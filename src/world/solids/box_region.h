@@ -3,7 +3,7 @@
 #include "geometry/least_box_overlap.h"
 #include "world/solids/four_points.h"
 
-#include <boost/container/static_vector.hpp>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -14,15 +14,11 @@ namespace abut {
 /// One side is the reference: that whose normal is the contact's, or that of a. The other one is moved along
 /// the normal onto the plane of the reference, where it is cut by the four edges of that rectangle.
 struct BoxRegion {
-    /// A point of the reference side, from its middle along its two edges.
-    struct Place {
-        double u, v;
-    };
-
     /// The corners, with their names. x and y are seen along the normal, in the axes of a ContactFrame.
-    boost::container::static_vector<RegionPoint, 8> corners;
-    boost::container::static_vector<Place, 8> places; ///< of the corners
-    double deepest = 0;          ///< the largest depth; minus infinity if there are no corners
+    std::array<RegionPoint, 8> corners;
+    std::array<double, 8> along_u, along_v; ///< places of the corners: from the middle of the reference side
+    std::size_t count = 0;      ///< of the corners
+    double deepest;              ///< the largest depth; minus infinity if there are no corners
     Vec3 middle, edge_u, edge_v; ///< of the reference side, in the world; the edges are of unit length
     bool reference_is_a = true;
 
@@ -34,12 +30,8 @@ struct BoxRegion {
 
     /// The point of the reference box at a corner.
     [[nodiscard]] Vec3 on_reference(std::size_t corner) const {
-        return middle + (places[corner].u * edge_u + places[corner].v * edge_v);
+        return middle + (along_u[corner] * edge_u + along_v[corner] * edge_v);
     }
-
-private:
-    /// Adds a corner. Of corners with the same name, the deepest remains.
-    void add(const RegionPoint& corner, const Place& place);
 };
 
 } // namespace abut

@@ -32,9 +32,12 @@ struct FacingAxis {
         const Vec3 middle = frame.coordinates(capsule.centre - frame.origin),
                    way = frame.coordinates(axis.half);
         const auto edge = static_cast<std::uint32_t>(4 * axis.number);
-        const Vec3 first = middle - way, last = middle + way;
-        segment.ends = {FlatCorner{first.x, first.y, first.z, 0, edge},
-                        FlatCorner{last.x, last.y, last.z, 1U << axis.number, edge}};
+        const auto set = [&](FlatCorner& corner, const Vec3& at, std::uint32_t vertex) {
+            corner.x = at.x, corner.y = at.y, corner.height = at.z;
+            corner.vertex = vertex, corner.edge = edge;
+        };
+        set(segment.ends[0], middle - way, 0);
+        set(segment.ends[1], middle + way, 1U << axis.number);
         segment.radius = capsule.radius;
     }
 };

@@ -47,7 +47,11 @@ inline void add_candidate(ContactCandidates& candidates, const ContactCandidate&
                 known = candidate;
             return;
         }
-    candidates.push_back(candidate);
+    // Member by member: a copy of the whole would wait for the stores of its parts.
+    ContactCandidate& added = candidates.emplace_back();
+    added.x = candidate.x, added.y = candidate.y;
+    added.height_a = candidate.height_a, added.height_b = candidate.height_b;
+    added.feature = candidate.feature;
 }
 
 /// How the two features of a contact point are named: two bits for the kind, 31 bits for the number

@@ -9,9 +9,9 @@ namespace abut {
 
 /// A corner of a contact region, seen along the normal.
 struct RegionPoint {
-    double x = 0, y = 0;
-    double depth = 0;
-    std::uint64_t feature = 0;
+    double x, y;
+    double depth;
+    std::uint64_t feature;
 };
 
 /// The places of up to four of the points, the deepest first. Of more than four, they are the deepest, the

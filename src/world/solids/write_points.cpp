@@ -4,20 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <cstddef>
 
 namespace abut {
-
-namespace {
-
-void drop_beyond_margin(ContactCandidates& candidates, const ContactLimits& limits) {
-    const double least = -limits.margin - limits.rounding;
-    candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
-                                    [&](const ContactCandidate& c) { return c.depth() < least; }),
-                     candidates.end());
-}
-
-} // namespace
 
 double deepest_of(const ContactCandidates& candidates) {
     double depth = -HUGE_VAL;
@@ -40,37 +29,31 @@ void add_witness(const SolidGap& witness, std::uint64_t name, const ContactFrame
         candidates.push_back(added);
 }
 
-void keep_four(ContactCandidates& candidates, double rounding,
-               std::span<const std::uint64_t> last) {
-    if (candidates.size() <= 4) {
-        for (std::size_t i = 1; i < candidates.size(); ++i)
-            for (std::size_t k = i; k > 0 && candidates[k].depth() > candidates[k - 1].depth(); --k)
-                std::swap(candidates[k], candidates[k - 1]);
-        return;
-    }
-    boost::container::small_vector<RegionPoint, 12> points;
-    points.reserve(candidates.size());
-    for (const ContactCandidate& c : candidates)
-        points.push_back({c.x, c.y, c.depth(), c.feature});
-    ContactCandidates kept;
-    for (const std::size_t i : four_points(std::span(points.data(), points.size()), rounding, last))
-        kept.push_back(candidates[i]);
-    candidates = kept;
-}
-
-void write_points(ContactCandidates& candidates, const ContactFrame& frame,
+void write_points(const ContactCandidates& candidates, const ContactFrame& frame,
                   const ContactLimits& limits, ContactManifold& manifold) {
-    drop_beyond_margin(candidates, limits);
-    keep_four(candidates, limits.rounding, limits.last);
+    const double least = -limits.margin - limits.rounding;
+    boost::container::small_vector<RegionPoint, 12> points;
+    boost::container::small_vector<std::size_t, 12> places; ///< of the points among the candidates
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        const ContactCandidate& c = candidates[i];
+        if (c.depth() < least)
+            continue;
+        RegionPoint& point = points.emplace_back();
+        point.x = c.x, point.y = c.y, point.depth = c.depth(), point.feature = c.feature;
+        places.push_back(i);
+    }
     manifold.normal = frame.normal;
     manifold.region = 0;
     manifold.status = Status::exact;
-    manifold.count = static_cast<std::uint32_t>(candidates.size());
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-        const ContactCandidate& from = candidates[i];
-        manifold.points[i] = {frame.world(from.x, from.y, from.height_a),
-                              frame.world(from.x, from.y, from.height_b), from.depth(),
-                              from.feature};
+    manifold.count = 0;
+    for (const std::size_t i :
+         four_points({points.data(), points.size()}, limits.rounding, limits.last)) {
+        const ContactCandidate& from = candidates[places[i]];
+        ContactPoint& point = manifold.points[manifold.count++];
+        point.point_a = frame.world(from.x, from.y, from.height_a);
+        point.point_b = frame.world(from.x, from.y, from.height_b);
+        point.depth = points[i].depth, point.feature = from.feature;
+        point.triangle_a = point.triangle_b = 0;
     }
 }
 

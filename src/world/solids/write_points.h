@@ -25,13 +25,10 @@ double deepest_of(const ContactCandidates& candidates);
 void add_witness(const SolidGap& witness, std::uint64_t name, const ContactFrame& frame,
                  ContactCandidates& candidates);
 
-/// Keeps at most four candidates, as four_points says: the deepest first.
-void keep_four(ContactCandidates& candidates, double rounding = 0,
-               std::span<const std::uint64_t> last = {});
-
-/// Writes the candidates that are within the margin, at most four, and the frame's normal. The region
+/// Writes the candidates that are within the margin, at most four as four_points chooses them, and the
+/// frame's normal. The region
 /// becomes 0, the status exact.
-void write_points(ContactCandidates& candidates, const ContactFrame& frame,
+void write_points(const ContactCandidates& candidates, const ContactFrame& frame,
                   const ContactLimits& limits, ContactManifold& manifold);
 
 } // namespace abut
