@@ -40,23 +40,16 @@ bool is_apart_along_axis(const RoundedBox& a, const RoundedBox& b, std::size_t a
     return sq > kLeastSine * kLeastSine && gap > 0 && gap * gap > least * least * sq;
 }
 
-bool are_capsules_apart(const RoundedBox& a, const RoundedBox& b, const Vec3& direction,
-                        double distance) {
+/// Whether a unit vector from a to b separates two capsules by more than a distance.
+bool is_apart_along(const RoundedBox& a, const RoundedBox& b, const Vec3& direction,
+                    double distance) {
     const HalfSegment of_a(a), of_b(b);
     const Vec3 way = b.centre - a.centre;
     const double reach = a.radius + b.radius + distance;
-    if (direction != Vec3{}) {
-        const double gap = dot(way, direction) - std::abs(dot(of_a.half, direction)) -
-                           std::abs(dot(of_b.half, direction)) - reach;
-        return gap > kGapRounding * (reach + sum_of_sizes(way) + a.half[of_a.number] +
-                                     b.half[of_b.number]);
-    }
-    // All are times the length of the way.
-    constexpr double kRounding = 1 + kGapRounding;
-    const double way_sq = length_sq(way);
-    const double gap =
-        way_sq - (std::abs(dot(of_a.half, way)) + std::abs(dot(of_b.half, way))) * kRounding;
-    return gap > 0 && gap * gap > reach * reach * way_sq * (kRounding * kRounding * kRounding);
+    const double gap = dot(way, direction) - std::abs(dot(of_a.half, direction)) -
+                       std::abs(dot(of_b.half, direction)) - reach;
+    return gap >
+           kGapRounding * (reach + sum_of_sizes(way) + a.half[of_a.number] + b.half[of_b.number]);
 }
 
 } // namespace
@@ -65,7 +58,7 @@ bool is_apart(const KnownSeparation& known, const RoundedBox& a, const RoundedBo
               double distance) {
     if (known.axis != kNoAxis)
         return is_apart_along_axis(a, b, known.axis, distance + a.radius + b.radius);
-    return is_segment(a) && is_segment(b) && are_capsules_apart(a, b, known.direction, distance);
+    return known.direction != Vec3{} && is_apart_along(a, b, known.direction, distance);
 }
 
 } // namespace abut

@@ -25,8 +25,10 @@ inline bool is_segment(const RoundedBox& box) {
     return (box.half[0] > 0) + (box.half[1] > 0) + (box.half[2] > 0) == 1;
 }
 
-/// What separated two boxes or two capsules at an earlier query. It is tried first: it can only prove what
-/// a search from scratch would find, too, so that results do not depend on earlier queries.
+/// What separated two boxes or two capsules at the last query. It is tried first: it can only prove what a
+/// search from scratch would find, too, so that results do not depend on earlier queries.
+///
+/// Of one pair of solids, whose kinds do not change.
 struct KnownSeparation {
     std::uint8_t axis = kNoAxis; ///< of two boxes: LeastOverlap::axis
     Vec3 direction;              ///< of two capsules: a unit vector from a to b; zero if none is known
@@ -35,8 +37,7 @@ struct KnownSeparation {
     void exchange() { axis = exchanged_axis(axis), direction = -direction; }
 };
 
-/// Whether a known separation proves two solids farther apart than a distance. Of two capsules without one,
-/// a plane across the way between their middles is tried.
+/// Whether a known separation proves two solids farther apart than a distance; false if none is known.
 ///
 /// Accuracy    false if they are farther apart by less than 2^-30 of their sizes, or if the edges of a
 ///             cross product are nearly parallel.

@@ -10,10 +10,11 @@ namespace abut {
 
 namespace {
 
-/// In          normal: from the surface to the capsule.
+/// In          inwards: from the end to the other one. normal: from the surface to the capsule.
 std::optional<ContactPoint> contact_of_end(const Model& surface,
                                            const Transform& world_from_surface, const Sphere& end,
-                                           const Vec3& normal, const ContactLimits& limits) {
+                                           const Vec3& inwards, const Vec3& normal,
+                                           const ContactLimits& limits) {
     const double farthest = limits.margin + limits.rounding;
     BodyGap gap =
         ball_gap(surface, world_from_surface, end, std::nextafter(farthest, HUGE_VAL), Depths::no);
@@ -21,11 +22,16 @@ std::optional<ContactPoint> contact_of_end(const Model& surface,
         return std::nullopt;
     if (gap.distance <= 0)
         gap = ball_gap(surface, world_from_surface, end, HUGE_VAL, Depths::yes);
-    if (!leads_same_way(gap.normal, normal))
+    const Vec3 out = outwards_at_end(inwards, normal);
+    if (!leads_same_way(gap.normal, normal) || out == Vec3{})
         return std::nullopt;
+    // The surface counts as flat beside the place that is nearest to the end.
     ContactPoint point;
-    point.depth = std::max(-gap.distance, -limits.margin);
-    point.point_b = end.centre - end.radius * normal;
+    point.point_b = end.centre - end.radius * out;
+    const double depth = dot(gap.normal, gap.point_a - point.point_b) / dot(gap.normal, normal);
+    if (depth < -farthest)
+        return std::nullopt;
+    point.depth = std::max(depth, -limits.margin);
     point.point_a = point.point_b + point.depth * normal;
     point.triangle_a = gap.triangle_a;
     return point;
@@ -36,15 +42,15 @@ std::optional<ContactPoint> contact_of_end(const Model& surface,
 std::array<std::optional<ContactPoint>, 2>
 contacts_of_ends(const Model& surface, const Transform& world_from_surface, const Capsule& capsule,
                  bool capsule_is_a, const Vec3& normal, const ContactLimits& limits) {
-    const auto contact = [&](const Vec3& centre) {
+    const auto contact = [&](const Vec3& centre, const Vec3& other) {
         auto point = contact_of_end(surface, world_from_surface, {centre, capsule.radius},
-                                    capsule_is_a ? -normal : normal, limits);
+                                    other - centre, capsule_is_a ? -normal : normal, limits);
         if (point && capsule_is_a)
             std::swap(point->point_a, point->point_b),
                 std::swap(point->triangle_a, point->triangle_b);
         return point;
     };
-    return {contact(capsule.axis.a), contact(capsule.axis.b)};
+    return {contact(capsule.axis.a, capsule.axis.b), contact(capsule.axis.b, capsule.axis.a)};
 }
 
 void add_capsule_ends(const Segment& axis,

@@ -7,6 +7,7 @@
 #include "math/vector.h"
 #include "world/contacts/solid_contacts.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -20,6 +21,15 @@ enum class CapsulePoint : std::uint8_t { middle = 0, end_a = 1, end_b = 2 };
 inline bool leads_same_way(const Vec3& normal_of_end, const Vec3& normal) {
     constexpr double kCosOfSameWay = 0.9;
     return dot(normal_of_end, normal) >= kCosOfSameWay;
+}
+
+/// The direction opposite to that from an end of a capsule's axis to the point of its surface below the end:
+/// below the higher end of a capsule that leans is its side, not the ball. Zero if the capsule stands upright.
+///
+/// In          inwards: from the end to the other one. up: the contact's normal, towards the capsule.
+inline Vec3 outwards_at_end(const Vec3& inwards, const Vec3& up) {
+    const Vec3 along = normalized_or_zero(inwards);
+    return normalized_or_zero(up - std::min(dot(up, along), 0.0) * along);
 }
 
 /// The contacts of the balls at both ends of a capsule with a surface; none where a ball is farther from it

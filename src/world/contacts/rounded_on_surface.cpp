@@ -268,10 +268,7 @@ private:
         depth_of_end_[which] = std::max(radius_ - std::sqrt(nearest_sq), -margin_);
         if (same_way_sq == HUGE_VAL)
             return std::nullopt;
-        // Below the higher end of a capsule that leans is its side, not the ball.
-        const Vec3 inwards = normalized_or_zero(ends_[1 - which] - end);
-        const double leans = std::min(dot(up, inwards), 0.0);
-        const Vec3 out = normalized_or_zero(up - leans * inwards);
+        const Vec3 out = outwards_at_end(ends_[1 - which] - end, up);
         const Vec3 on_solid = end - radius_ * out;
         double depth = dot(up_there, on_surface - on_solid) / dot(up_there, up);
         if (depth < -margin_ - kCoreRounding * size_ || out == Vec3{})

@@ -17,8 +17,9 @@ struct FacingAxis {
     bool is_end;
     std::uint32_t end; ///< the number of the vertex, if it is an end
 
-    FacingAxis(const RoundedBox& capsule, const HalfSegment& axis, const Vec3& direction,
-               const ContactFrame& frame) {
+    /// In          middle: of the capsule, from the frame's origin.
+    FacingAxis(const RoundedBox& capsule, const HalfSegment& axis, const Vec3& middle,
+               const Vec3& direction, const ContactFrame& frame) {
         const double along = dot(direction, capsule.axis[axis.number]), size = std::abs(along);
         end = along > 0 ? 1U << axis.number : 0U;
         // The largest of a unit vector's three coordinates is not below 0.577.
@@ -29,15 +30,14 @@ struct FacingAxis {
         }
         if (is_end)
             return;
-        const Vec3 middle = frame.coordinates(capsule.centre - frame.origin),
-                   way = frame.coordinates(axis.half);
+        const Vec3 at = frame.coordinates(middle), way = frame.coordinates(axis.half);
         const auto edge = static_cast<std::uint32_t>(4 * axis.number);
-        const auto set = [&](FlatCorner& corner, const Vec3& at, std::uint32_t vertex) {
-            corner.x = at.x, corner.y = at.y, corner.height = at.z;
+        const auto set = [&](FlatCorner& corner, const Vec3& place, std::uint32_t vertex) {
+            corner.x = place.x, corner.y = place.y, corner.height = place.z;
             corner.vertex = vertex, corner.edge = edge;
         };
-        set(segment.ends[0], middle - way, 0);
-        set(segment.ends[1], middle + way, 1U << axis.number);
+        set(segment.ends[0], at - way, 0);
+        set(segment.ends[1], at + way, 1U << axis.number);
         segment.radius = capsule.radius;
     }
 };
@@ -65,7 +65,8 @@ bool contact_of_capsules(const RoundedBox& a, const RoundedBox& b, const Contact
     }
     separation.direction = {};
     const ContactFrame frame(a.centre, gap.normal);
-    const FacingAxis axis_a(a, along_a, gap.normal, frame), axis_b(b, along_b, -gap.normal, frame);
+    const FacingAxis axis_a(a, along_a, {}, gap.normal, frame),
+        axis_b(b, along_b, b.centre - a.centre, -gap.normal, frame);
     ContactCandidates candidates;
     if (!axis_a.is_end && !axis_b.is_end)
         add_segment_overlap(axis_a.segment, axis_b.segment, candidates);

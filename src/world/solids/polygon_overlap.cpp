@@ -56,9 +56,10 @@ bool follows(std::uint32_t i, std::uint32_t k, std::size_t n) {
     return i == (k + 1 == n ? 0 : k + 1);
 }
 
-/// Names the corners of an outline. `Face` is a span of a fixed size where that is known.
-template <typename Face>
+/// Names the corners of an outline.
 class CornerNames {
+    using Face = std::span<const FlatCorner>;
+
 public:
     CornerNames(const Face& a, const Face& b, std::span<const OutlineCorner> outline)
         : a_(a), b_(b), outline_(outline) {
@@ -95,15 +96,20 @@ public:
     }
 
 private:
-    const Face& a_;
-    const Face& b_;
+    Face a_, b_;
     std::span<const OutlineCorner> outline_;
     double reach_sq_;
 };
 
-template <typename Face>
-void add_overlap(const Face& a, const Face& b, const FacePlane& plane, double least_depth,
-                 OutlineCorner* now, OutlineCorner* next, ContactCandidates& candidates) {
+} // namespace
+
+void add_polygon_overlap(std::span<const FlatCorner> a, std::span<const FlatCorner> b,
+                         const FacePlane& plane, ContactCandidates& candidates) {
+    // Each edge of a adds one corner at most. The outline moves from one half to the other and back.
+    const std::size_t most = a.size() + b.size();
+    boost::container::small_vector<OutlineCorner, 32> memory(2 * most,
+                                                             boost::container::default_init);
+    OutlineCorner *now = memory.data(), *next = now + most;
     std::size_t count = b.size();
     for (std::size_t i = 0; i < count; ++i)
         now[i] = {b[i].x, b[i].y, b[i].height, 0, static_cast<std::uint32_t>(i)};
@@ -116,31 +122,12 @@ void add_overlap(const Face& a, const Face& b, const FacePlane& plane, double le
         std::swap(now, next);
     }
     const std::span<const OutlineCorner> outline(now, count);
-    const CornerNames<Face> names(a, b, outline);
+    const CornerNames names(a, b, outline);
     for (std::size_t i = 0; i < count; ++i) {
         const OutlineCorner& corner = outline[i];
-        const double height_a = plane.at(corner.x, corner.y);
-        if (height_a - corner.height >= least_depth)
-            add_candidate(candidates, {corner.x, corner.y, height_a, corner.height, names.name(i)});
+        add_candidate(candidates, {corner.x, corner.y, plane.at(corner.x, corner.y), corner.height,
+                                   names.name(i)});
     }
-}
-
-} // namespace
-
-void add_quad_overlap(std::span<const FlatCorner, 4> a, std::span<const FlatCorner, 4> b,
-                      const FacePlane& plane, double least_depth, ContactCandidates& candidates) {
-    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): written before they are read
-    std::array<OutlineCorner, 8> now, next;
-    add_overlap(a, b, plane, least_depth, now.data(), next.data(), candidates);
-}
-
-void add_polygon_overlap(std::span<const FlatCorner> a, std::span<const FlatCorner> b,
-                         const FacePlane& plane, ContactCandidates& candidates) {
-    // Each edge of a adds one corner at most. The outline moves from one half to the other and back.
-    const std::size_t most = a.size() + b.size();
-    boost::container::small_vector<OutlineCorner, 32> memory(2 * most,
-                                                             boost::container::default_init);
-    add_overlap(a, b, plane, -HUGE_VAL, memory.data(), memory.data() + most, candidates);
 }
 
 } // namespace abut

@@ -30,8 +30,4 @@ struct FacePlane {
 void add_polygon_overlap(std::span<const FlatCorner> a, std::span<const FlatCorner> b,
                          const FacePlane& plane, ContactCandidates& candidates);
 
-/// The same of two quadrilaterals. Corners that are less deep than `least_depth` are left out.
-void add_quad_overlap(std::span<const FlatCorner, 4> a, std::span<const FlatCorner, 4> b,
-                      const FacePlane& plane, double least_depth, ContactCandidates& candidates);
-
 } // namespace abut

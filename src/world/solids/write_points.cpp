@@ -31,30 +31,35 @@ void add_witness(const SolidGap& witness, std::uint64_t name, const ContactFrame
 
 void write_points(const ContactCandidates& candidates, const ContactFrame& frame,
                   const ContactLimits& limits, ContactManifold& manifold) {
+    manifold.normal = frame.normal;
+    manifold.region = 0;
+    manifold.status = Status::exact;
+    manifold.count = 0;
     const double least = -limits.margin - limits.rounding;
+    const auto write = [&](const ContactCandidate& from) {
+        ContactPoint& point = manifold.points[manifold.count++];
+        point.point_a = frame.world(from.x, from.y, from.height_a);
+        point.point_b = frame.world(from.x, from.y, from.height_b);
+        point.depth = from.depth(), point.feature = from.feature;
+        point.triangle_a = point.triangle_b = 0;
+    };
+    if (candidates.size() == 1) {
+        if (candidates[0].depth() >= least)
+            write(candidates[0]);
+        return;
+    }
     boost::container::small_vector<RegionPoint, 12> points;
     boost::container::small_vector<std::size_t, 12> places; ///< of the points among the candidates
     for (std::size_t i = 0; i < candidates.size(); ++i) {
         const ContactCandidate& c = candidates[i];
         if (c.depth() < least)
             continue;
-        RegionPoint& point = points.emplace_back();
-        point.x = c.x, point.y = c.y, point.depth = c.depth(), point.feature = c.feature;
+        points.push_back({c.x, c.y, c.depth(), c.feature});
         places.push_back(i);
     }
-    manifold.normal = frame.normal;
-    manifold.region = 0;
-    manifold.status = Status::exact;
-    manifold.count = 0;
     for (const std::size_t i :
-         four_points({points.data(), points.size()}, limits.rounding, limits.last)) {
-        const ContactCandidate& from = candidates[places[i]];
-        ContactPoint& point = manifold.points[manifold.count++];
-        point.point_a = frame.world(from.x, from.y, from.height_a);
-        point.point_b = frame.world(from.x, from.y, from.height_b);
-        point.depth = points[i].depth, point.feature = from.feature;
-        point.triangle_a = point.triangle_b = 0;
-    }
+         four_points({points.data(), points.size()}, limits.rounding, limits.last))
+        write(candidates[places[i]]);
 }
 
 } // namespace abut

@@ -8,7 +8,7 @@
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 #include "tests/support/shapes.h"
-#include "world/contacts/contact_candidates.h"
+#include "world/solids/four_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -360,9 +360,9 @@ double hull_area(std::vector<std::array<double, 2>> places) {
     return sum;
 }
 
-double hull_area(const ContactCandidates& candidates) {
+double hull_area(const std::vector<RegionPoint>& points) {
     std::vector<std::array<double, 2>> places;
-    for (const ContactCandidate& each : candidates)
+    for (const RegionPoint& each : points)
         places.push_back({each.x, each.y});
     return hull_area(places);
 }
@@ -371,22 +371,25 @@ TEST(ContactManifolds, FourPointsHoldAQuarterOfTheArea) {
     Random random(6605);
     double least = 1;
     for (int round = 0; round < many(2000); ++round) {
-        ContactCandidates candidates;
+        std::vector<RegionPoint> points;
         const int count = random.integer(5, 12);
         const double stretch = random.uniform(0.05, 1);
         for (int i = 0; i < count; ++i) {
             const Vec3 d = random.direction();
-            candidates.push_back(
-                {stretch * d.x, d.y, random.uniform(0, 1), 0, static_cast<std::uint64_t>(i)});
+            points.push_back(
+                {stretch * d.x, d.y, random.uniform(0, 1), static_cast<std::uint64_t>(i)});
         }
         double deepest = 0;
-        for (const ContactCandidate& each : candidates)
-            deepest = std::max(deepest, each.depth());
-        const double all = hull_area(candidates);
-        keep_four(candidates);
-        ASSERT_EQ(candidates.size(), 4U);
-        EXPECT_EQ(candidates[0].depth(), deepest);
-        least = std::min(least, hull_area(candidates) / all);
+        for (const RegionPoint& each : points)
+            deepest = std::max(deepest, each.depth);
+        std::vector<RegionPoint> kept;
+        for (const std::size_t i : four_points(points, 0, {}))
+            kept.push_back(points[i]);
+        ASSERT_EQ(kept.size(), 4U);
+        EXPECT_EQ(kept[0].depth, deepest);
+        for (std::size_t i = 1; i < kept.size(); ++i)
+            EXPECT_LE(kept[i].depth, kept[i - 1].depth);
+        least = std::min(least, hull_area(kept) / hull_area(points));
     }
     std::cout << "least share of the area " << least << '\n';
     EXPECT_GE(least, 0.25);

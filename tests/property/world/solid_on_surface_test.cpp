@@ -347,5 +347,32 @@ TEST(SolidOnSurface, TheEndsOfALeaningCapsuleLieOnIt) {
     }
 }
 
+TEST(SolidOnSurface, TheEndsOfALeaningCapsuleDeepInASolidLieOnIt) {
+    int both = 0;
+    for (const double angle : {0.0, 0.05, 0.2, 0.4, 1.2})
+        for (const double height_of_lower_end : {-0.2, -0.1, 0.1}) {
+            SCOPED_TRACE(std::to_string(angle) + ' ' + std::to_string(height_of_lower_end));
+            World world;
+            world.add(Model(box_mesh({-4, -4, -8}, {4, 4, 0})), {});
+            const Capsule capsule{{{-0.5, 0, 0}, {0.5, 0, 0}}, 0.25};
+            const Pose pose{{0, 0, height_of_lower_end + 0.5 * std::sin(angle)},
+                            {std::cos(angle / 2), 0, std::sin(angle / 2), 0}};
+            world.add(capsule, pose);
+            const auto found = world.contact_manifolds();
+            ASSERT_EQ(found.size(), 1U);
+            EXPECT_NEAR(found[0].points[0].depth, 0.25 - height_of_lower_end, 1e-12);
+            for (std::uint32_t i = 0; i < found[0].count; ++i) {
+                const ContactPoint& point = found[0].points[i];
+                EXPECT_NEAR(distance_from_surface(capsule, pose, point.point_b), 0, 1e-9)
+                    << angle << ' ' << height_of_lower_end;
+                EXPECT_NEAR(point.point_a.z, 0, 1e-12);
+                EXPECT_LE(length(point.point_a - point.point_b - point.depth * found[0].normal),
+                          1e-12);
+            }
+            both += found[0].count > 1 ? 1 : 0;
+        }
+    EXPECT_GE(both, 8);
+}
+
 } // namespace
 } // namespace abut::test
