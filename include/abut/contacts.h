@@ -14,9 +14,9 @@ namespace abut {
 struct ContactPoint {
     /// On the two surfaces, world frame: point_a - point_b is `depth` times the normal. With a margin,
     /// the points of two models need not lie on one line along the normal, nor do those of a solid
-    /// beside an edge of a model that is not convex: `depth` is the part along the normal. The point
-    /// of a capsule that is deep in a model at a slant may lie inside the capsule: it is an end of its
-    /// axis, moved by the radius towards the surface.
+    /// beside an edge of a model that is not convex: `depth` is the part along the normal. The
+    /// deepest point of a capsule inside of a model that is not convex may lie inside the capsule, if
+    /// another face is nearest to the rest of its axis.
     Vec3 point_a, point_b;
     double depth = 0;          ///< along the normal; negative: a gap, at most the margin
     std::uint64_t feature = 0; ///< names the two features that make the point; stays while they do

@@ -31,7 +31,7 @@ inline bool is_segment(const RoundedBox& box) {
 /// Of one pair of solids, whose kinds do not change.
 struct KnownSeparation {
     std::uint8_t axis = kNoAxis; ///< of two boxes: LeastOverlap::axis
-    Vec3 direction;              ///< of two capsules: a unit vector from a to b; zero if none is known
+    Vec3 direction; ///< of two capsules: a unit vector from a to b; zero if none is known
 
     /// Exchanges a and b.
     void exchange() { axis = exchanged_axis(axis), direction = -direction; }

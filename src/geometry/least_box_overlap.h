@@ -14,7 +14,7 @@ inline constexpr std::uint8_t kNoAxis = 255;
 /// The scalar products that the axes of two boxes share.
 struct BoxAxes {
     double turn[3][3]; ///< of axis i of a and axis k of b
-    double way[6];     ///< from the centre of a to that of b, along the axes of a and then those of b
+    double way[6]; ///< from the centre of a to that of b, along the axes of a and then those of b
 
     BoxAxes(const RoundedBox& a, const RoundedBox& b) {
         const Vec3 d = b.centre - a.centre;

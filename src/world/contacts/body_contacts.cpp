@@ -252,7 +252,8 @@ void append_box_contact(const PlacedBody& a, const PlacedBody& b, double margin,
         if (!found)
             return;
         exchange_bodies(manifolds.back());
-    } else if (!rounded_box_contact(box_a, box_b, at_most, names_of(warm_start), separation, manifolds)) {
+    } else if (!rounded_box_contact(box_a, box_b, at_most, names_of(warm_start), separation,
+                                    manifolds)) {
         return;
     }
     keep_within_margin(a, b, margin, doubt, warm_start, first, manifolds);

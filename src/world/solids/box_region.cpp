@@ -60,9 +60,8 @@ struct FacingSides {
         };
         const std::size_t n = incident.k;
         const double half = incident.positive ? to.half[n] : -to.half[n];
-        middle =
-            over(way(u) + half * turn(u, n), way(v) + half * turn(v, n),
-                 (way(k) + half * turn(k, n)) - outward * from.half[k]);
+        middle = over(way(u) + half * turn(u, n), way(v) + half * turn(v, n),
+                      (way(k) + half * turn(k, n)) - outward * from.half[k]);
         edge_u = half_edge(incident.u), edge_v = half_edge(incident.v);
     }
 };
@@ -80,8 +79,8 @@ class CutSide {
 public:
     explicit CutSide(const FacingSides& sides) : half_u_(sides.half_u), half_v_(sides.half_v) {
         const PlaceOver front = sides.middle + sides.edge_u, back = sides.middle - sides.edge_u;
-        const PlaceOver corners[] = {front + sides.edge_v, back + sides.edge_v,
-                                     back - sides.edge_v, front - sides.edge_v};
+        const PlaceOver corners[] = {front + sides.edge_v, back + sides.edge_v, back - sides.edge_v,
+                                     front - sides.edge_v};
         double low_u = HUGE_VAL, low_v = HUGE_VAL, high_u = -HUGE_VAL, high_v = -HUGE_VAL;
         for (std::uint32_t i = 0; i < 4; ++i) {
             const PlaceOver& at = corners[i];
@@ -247,11 +246,11 @@ public:
         // between two edges of one side that follow each other is a corner of it.
         const std::uint32_t now = edge % 4, before = last % 4;
         CornerAt near_reference = !crosses && of_reference && before == (now + 1) % 4
-                                            ? CornerAt{before, 0}
-                                            : reference_.nearest_near(at);
+                                      ? CornerAt{before, 0}
+                                      : reference_.nearest_near(at);
         CornerAt near_incident = !crosses && !of_reference && now == (before + 1) % 4
-                                           ? CornerAt{now, 0}
-                                           : incident_.nearest_near(at);
+                                     ? CornerAt{now, 0}
+                                     : incident_.nearest_near(at);
         bool at_reference = near_reference.distance_sq <= reach_sq_,
              at_incident = near_incident.distance_sq <= reach_sq_;
         if (!at_reference && !at_incident) {
@@ -311,9 +310,8 @@ BoxRegion::BoxRegion(const RoundedBox& a, const RoundedBox& b, const BoxAxes& ax
         around.extend(at[i]);
     }
     SeenSide reference({0, 0}, seen(sides.half_u, 0), seen(0, sides.half_v));
-    SeenSide incident(seen(sides.middle.u, sides.middle.v),
-                            seen(sides.edge_u.u, sides.edge_u.v),
-                            seen(sides.edge_v.u, sides.edge_v.v));
+    SeenSide incident(seen(sides.middle.u, sides.middle.v), seen(sides.edge_u.u, sides.edge_u.v),
+                      seen(sides.edge_v.u, sides.edge_v.v));
     reference.find_near(around), incident.find_near(around);
     const RegionNames names(sides, cut, reference_is_a, reference, incident, around);
     for (std::size_t i = 0; i < cut.size(); ++i) {

@@ -16,10 +16,12 @@ namespace abut {
 struct BoxRegion {
     /// The corners, with their names. x and y are seen along the normal, in the axes of a ContactFrame.
     std::array<RegionPoint, 8> corners;
-    std::array<double, 8> along_u, along_v; ///< places of the corners: from the middle of the reference side
-    std::size_t count = 0;      ///< of the corners
-    double deepest;              ///< the largest depth; minus infinity if there are no corners
-    Vec3 middle, edge_u, edge_v; ///< of the reference side, in the world; the edges are of unit length
+    std::array<double, 8> along_u,
+        along_v;           ///< places of the corners: from the middle of the reference side
+    std::size_t count = 0; ///< of the corners
+    double deepest;        ///< the largest depth; minus infinity if there are no corners
+    Vec3 middle, edge_u,
+        edge_v; ///< of the reference side, in the world; the edges are of unit length
     bool reference_is_a = true;
 
     /// In          least: of the two boxes. least_depth: corners that are less deep are left out.

@@ -119,7 +119,8 @@ TEST(SolidPairs, TheRegionOfTwoBoxesIsThatOfTheirFacesAsPolygons) {
             ASSERT_NEAR(region.corners[k].depth, other.depth(), 1e-12);
             const Vec3 on_a = frame.world(other.x, other.y, other.height_a),
                        on_b = frame.world(other.x, other.y, other.height_b);
-            ASSERT_LE(length(region.on_reference(k) - (region.reference_is_a ? on_a : on_b)), 1e-12);
+            ASSERT_LE(length(region.on_reference(k) - (region.reference_is_a ? on_a : on_b)),
+                      1e-12);
             expected.erase(same);
         }
         renamed += static_cast<int>(expected.size());
