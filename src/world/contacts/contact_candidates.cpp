@@ -60,13 +60,18 @@ void overlap_of_segment(const ContactFace& face_a, const FlatFace& a, const Flat
     if (!(part.begin <= part.end))
         return;
     const double length = part.end - part.begin;
-    const double reach_sq = name_reach_sq(0, 0, length * (q.x - p.x), length * (q.y - p.y));
+    // Where an end lies over an edge of the polygon, rounding decides how much of the segment is over it, if
+    // any. An end names all that is near it, by the whole segment's length: that does not change.
+    const double reach_a_sq = name_reach_sq(0, 0, length * (q.x - p.x), length * (q.y - p.y)),
+                 reach_b_sq = name_reach_sq(0, 0, q.x - p.x, q.y - p.y);
     const FacePlane plane(a[0], face_a.normal, frame);
     const Vec3 core_p{p.x, p.y, p.height}, core_q{q.x, q.y, q.height};
     const auto add = [&](double t, std::optional<std::size_t> edge, FeatureKind otherwise) {
         const Vec3 at = core_p + t * (core_q - core_p);
         const NearestCorner near_a(corners_of(a), at.x, at.y), near_b(corners_of(b), at.x, at.y);
-        const FeatureKind kind = kind_within(reach_sq, near_a, near_b, otherwise);
+        const FeatureKind kind = near_b.distance_sq <= reach_b_sq   ? FeatureKind::vertex_of_b
+                                 : near_a.distance_sq <= reach_a_sq ? FeatureKind::vertex_of_a
+                                                                    : otherwise;
         const double height =
             radius > 0 ? -capsule_height(core_p, core_q, radius, at.x, at.y, -1).value_or(-at.z)
                        : at.z;

@@ -20,16 +20,18 @@ const ContactFace::Corner& farthest_corner(const ContactFace& face, const Vec3& 
 }
 
 /// Names the witness points: by the edges if both faces are segments, else by the vertices that are
-/// farthest along the normal. A point is the only vertex of its face.
+/// farthest along the normal; beside a polygon by that of a segment or point alone, as add_overlap_corners
+/// does.
 std::uint64_t witness_name(const ContactFace& a, const ContactFace& b, const Vec3& normal) {
     const ContactFace::Corner &of_a = farthest_corner(a, normal),
                               &of_b = farthest_corner(b, -normal);
-    const bool point_a = a.corners.size() == 1, point_b = b.corners.size() == 1;
-    if (a.corners.size() == 2 && b.corners.size() == 2)
+    const std::size_t of_face_a = std::min<std::size_t>(a.corners.size(), 3),
+                      of_face_b = std::min<std::size_t>(b.corners.size(), 3);
+    if (of_face_a == 2 && of_face_b == 2)
         return feature_name(FeatureKind::edges, of_a.edge, of_b.edge);
-    if (point_a != point_b)
-        return point_a ? feature_name(FeatureKind::vertex_of_a, of_a.vertex, 0)
-                       : feature_name(FeatureKind::vertex_of_b, 0, of_b.vertex);
+    if (of_face_a != of_face_b)
+        return of_face_a < of_face_b ? feature_name(FeatureKind::vertex_of_a, of_a.vertex, 0)
+                                     : feature_name(FeatureKind::vertex_of_b, 0, of_b.vertex);
     return feature_name(FeatureKind::vertices, of_a.vertex, of_b.vertex);
 }
 

@@ -305,5 +305,45 @@ TEST(NamesAtRest, StayOnEveryGround) {
     EXPECT_LE(fresh, all / 200);
 }
 
+TEST(StandingPoints, TheEndOfACapsuleKeepsItsNameOverAnEdgeOrCornerOfABox) {
+    Random random(20261406);
+    std::cout << "seed 20261406\n";
+    const int rounds = many(300);
+    int met = 0;
+    for (int round = 0; round < rounds; ++round) {
+        const bool over_corner = random.chance(0.5);
+        const auto tilt = [&] { return random.uniform(0, 0.3); };
+        const Vec3 normal =
+            normalized_or_zero({tilt(), over_corner ? tilt() : 0, random.uniform(0.7, 1)});
+        const double radius = 0.3;
+        const Vec3 centre =
+            Vec3{1, over_corner ? 1 : random.uniform(-0.9, 0.9), 1} + (radius - 0.002) * normal;
+        const Vec3 axis = random.direction();
+        if (dot(axis, normal) < 0.1)
+            continue;
+        World world;
+        world.add(Box3{{-1, -1, -1}, {1, 1, 1}}, {});
+        const BodyId capsule = world.add(Capsule{{{}, axis}, radius}, {centre});
+        std::set<std::uint64_t> first;
+        for (int step = 0; step < 10; ++step) {
+            world.move(capsule, {centre + random.in_cube(1e-8)});
+            const auto found = world.contact_manifolds(0.02);
+            ASSERT_EQ(found.size(), 1U);
+            std::set<std::uint64_t> names;
+            for (std::uint32_t i = 0; i < found[0].count; ++i) {
+                names.insert(found[0].points[i].feature);
+                for (std::uint32_t k = 0; k < i; ++k)
+                    EXPECT_GT(length(found[0].points[i].point_a - found[0].points[k].point_a),
+                              1e-6);
+            }
+            if (step == 0)
+                first = names;
+            EXPECT_EQ(names, first) << "round " << round << " step " << step;
+        }
+        ++met;
+    }
+    EXPECT_GT(met, rounds / 4);
+}
+
 } // namespace
 } // namespace abut::test
