@@ -46,14 +46,18 @@ Vec3 direction_between(const PlacedBody& a, const PlacedBody& b) {
 double size_of(const BodyShape& shape) {
     if (const auto* convex = std::get_if<ConvexShape>(&shape))
         return convex->solid.data().reach;
+    if (const auto* curved = std::get_if<CurvedShape>(&shape))
+        return sum_of_sizes(curved->solid.centre) + curved->solid.reach;
     const auto& box = std::get<RoundedBox>(shape);
     return sum_of_sizes(box.centre) + box.half[0] + box.half[1] + box.half[2] + box.radius;
 }
 
-/// The face of a convex shape that is most opposed to another body.
+/// The face of a convex or curved shape that is most opposed to another body.
 ContactFace face_of(const PlacedBody& body, const Vec3& direction, const Vec3& origin) {
     if (const auto* convex = std::get_if<ConvexShape>(&body.shape))
         return contact_face(convex->solid, *convex->faces, body.world_from_body, direction, origin);
+    if (const auto* curved = std::get_if<CurvedShape>(&body.shape))
+        return contact_face(placed(*curved, body.world_from_body), direction, origin);
     return contact_face(placed(std::get<RoundedBox>(body.shape), body.world_from_body), direction,
                         origin);
 }
@@ -63,13 +67,29 @@ std::span<const std::uint64_t> names_of(const PairWarmStart& warm_start) {
     return {warm_start.points.data(), warm_start.points.size()};
 }
 
-/// Appends the contact of two convex shapes. Returns whether they are at most the margin apart.
-bool convex_contact(const PlacedBody& a, const PlacedBody& b, double margin,
-                    PairWarmStart& warm_start, std::vector<ContactManifold>& manifolds) {
-    const BodyGap gap =
-        gap_between(a, b, std::nextafter(margin, HUGE_VAL), Depths::yes, warm_start);
-    if (gap.distance > margin)
-        return false;
+/// Exchanges the bodies of a manifold.
+void exchange_bodies(ContactManifold& manifold) {
+    manifold.normal = -manifold.normal;
+    for (std::uint32_t i = 0; i < manifold.count; ++i) {
+        ContactPoint& point = manifold.points[i];
+        std::swap(point.point_a, point.point_b);
+        point.feature = turned_round(point.feature);
+    }
+}
+
+/// Whether a curved shape is b, or the one that comes first in an order of curved shapes is.
+bool curved_comes_second(const PlacedBody& a, const PlacedBody& b) {
+    const auto *curved_a = std::get_if<CurvedShape>(&a.shape),
+               *curved_b = std::get_if<CurvedShape>(&b.shape);
+    return curved_b != nullptr &&
+           (curved_a == nullptr ||
+            comes_before(*curved_b, b.world_from_body, *curved_a, a.world_from_body));
+}
+
+/// Appends the contact of two convex shapes whose gap is known.
+void append_convex_contact(const PlacedBody& a, const PlacedBody& b, const BodyGap& gap,
+                           double margin, std::span<const std::uint64_t> last,
+                           std::vector<ContactManifold>& manifolds) {
     const auto &m = a.world_from_body.m, &n = b.world_from_body.m;
     const Vec3 origin{m[9], m[10], m[11]};
     const Vec3 normal = gap.normal == Vec3{} ? direction_between(a, b) : gap.normal;
@@ -77,10 +97,28 @@ bool convex_contact(const PlacedBody& a, const PlacedBody& b, double margin,
     const double rounding = 0x1p-44 * (size_of(a.shape) + size_of(b.shape) +
                                        sum_of_sizes(Vec3{n[9], n[10], n[11]} - origin)) +
                             0x1p-50 * sum_of_sizes(origin);
-    set_corners_and_witness(face_of(a, normal, origin), face_of(b, -normal, origin),
-                            ContactFrame(origin, normal),
-                            {gap.distance, gap.point_a, gap.point_b, normal},
-                            {margin, rounding, names_of(warm_start)}, manifolds);
+    set_corners_and_witness(
+        face_of(a, normal, origin), face_of(b, -normal, origin), ContactFrame(origin, normal),
+        {gap.distance, gap.point_a, gap.point_b, normal}, {margin, rounding, last}, manifolds);
+}
+
+/// Appends the contact of two convex shapes. Returns whether they are at most the margin apart.
+bool convex_contact(const PlacedBody& a, const PlacedBody& b, double margin,
+                    PairWarmStart& warm_start, std::vector<ContactManifold>& manifolds) {
+    BodyGap gap = gap_between(a, b, std::nextafter(margin, HUGE_VAL), Depths::yes, warm_start);
+    if (gap.distance > margin)
+        return false;
+    if (!curved_comes_second(a, b)) {
+        append_convex_contact(a, b, gap, margin, names_of(warm_start), manifolds);
+        return true;
+    }
+    // The points are the same whichever body is a: many corners of a disc are as good as each other.
+    std::swap(gap.point_a, gap.point_b);
+    gap.normal = -gap.normal;
+    auto last = warm_start.points;
+    std::transform(last.begin(), last.end(), last.begin(), turned_round);
+    append_convex_contact(b, a, gap, margin, {last.data(), last.size()}, manifolds);
+    exchange_bodies(manifolds.back());
     return true;
 }
 
@@ -118,8 +156,10 @@ std::vector<ModelManifold> surface_regions(const PlacedBody& a, const PlacedBody
                              options);
 }
 
-/// Whether the kind of shape has a face for `face_of`. Curved shapes and half-spaces have one point.
+/// Whether the shape has a face for `face_of`: it is no surface, half-space, or curved shape without an extent.
 bool has_faces(const BodyShape& shape) {
+    if (const auto* curved = std::get_if<CurvedShape>(&shape))
+        return has_curved_side(curved->solid);
     return std::holds_alternative<RoundedBox>(shape) || std::holds_alternative<ConvexShape>(shape);
 }
 
@@ -206,14 +246,11 @@ void keep_within_margin(const PlacedBody& a, const PlacedBody& b, double margin,
             each->points[i].depth = std::max(each->points[i].depth, -margin);
 }
 
-/// Exchanges the bodies of a manifold.
-void exchange_bodies(ContactManifold& manifold) {
-    manifold.normal = -manifold.normal;
-    for (std::uint32_t i = 0; i < manifold.count; ++i) {
-        ContactPoint& point = manifold.points[i];
-        std::swap(point.point_a, point.point_b);
-        point.feature = turned_round(point.feature);
-    }
+/// The least depth of bodies that touch. That of a curved shape is rounded.
+double least_touching(const PlacedBody& a, const PlacedBody& b) {
+    const bool is_curved = std::holds_alternative<CurvedShape>(a.shape) ||
+                           std::holds_alternative<CurvedShape>(b.shape);
+    return is_curved ? -2 * doubt_of(a, b) : 0;
 }
 
 /// Whether b comes first in the order in which gap_between measures.
@@ -275,28 +312,42 @@ void append_solid_contact(const PlacedBody& a, const PlacedBody& b, double margi
     }
 }
 
-/// The contacts of two bodies with triangles, at least one of them a surface. Of bodies that have not
-/// moved since the last query, its contacts.
+bool has_curved_faces(const BodyShape& shape) {
+    return std::holds_alternative<CurvedShape>(shape) && has_faces(shape);
+}
+
+/// Adds the manifolds of a surface and another body. Returns a bound of the rounding of their depths; none where
+/// pairs of triangles have told them.
+std::optional<double> add_regions(const PlacedBody& a, const PlacedBody& b, double margin,
+                                  PairWarmStart& warm_start, std::vector<ModelManifold>& regions) {
+    if (has_curved_faces(a.shape) || has_curved_faces(b.shape))
+        return add_curved_regions(a, b, margin, warm_start, regions);
+    const SolidOfPair solid = solid_of(a, b);
+    std::optional<double> rounding;
+    if (solid.faces)
+        rounding = add_solid_regions(a, b, solid, margin, warm_start, regions);
+    if (!rounding && (!solid.faces || is_within(a, b, margin, warm_start)))
+        regions = surface_regions(a, b, margin, warm_start.regions.manifolds);
+    return rounding;
+}
+
+/// The contacts of two bodies, at least one of them a surface, that have triangles or a curved side. Of bodies
+/// that have not moved since the last query, its contacts.
 void append_region_contacts(const BodiesInContact& bodies, double margin, PairWarmStart& warm_start,
                             std::vector<ContactManifold>& manifolds) {
     const PlacedBody &a = bodies.a, &b = bodies.b;
     RegionsOfPair& kept = warm_start.regions;
+    const bool is_curved = has_curved_faces(a.shape) || has_curved_faces(b.shape);
     if (kept.placements != bodies.placements || kept.margin != margin) {
-        if (!triangles_of(a.shape) || !triangles_of(b.shape))
+        if (!is_curved && (!triangles_of(a.shape) || !triangles_of(b.shape)))
             return;
         static thread_local std::vector<ModelManifold> memory;
         Borrowed<std::vector<ModelManifold>> borrowed(memory);
         std::vector<ModelManifold>& regions = *borrowed;
         regions.clear();
         double doubt = doubt_of(a, b);
-        const SolidOfPair solid = solid_of(a, b);
-        std::optional<double> rounding;
-        if (solid.faces)
-            rounding = add_solid_regions(a, b, solid, margin, warm_start, regions);
-        if (rounding)
+        if (const auto rounding = add_regions(a, b, margin, warm_start, regions))
             doubt += *rounding;
-        else if (!solid.faces || is_within(a, b, margin, warm_start))
-            regions = surface_regions(a, b, margin, kept.manifolds);
         keep_within_margin(a, b, margin, doubt, warm_start, 0, regions);
         kept.placements = bodies.placements, kept.margin = margin;
         kept.manifolds.assign(regions.begin(), regions.end());
@@ -385,7 +436,7 @@ void append_contacts(const BodiesInContact& bodies, double margin, PairWarmStart
         // miss a surface that lies wholly inside a solid, which is in contact.
         if (!(is_surface(a.shape) && is_surface(b.shape)) &&
             (manifolds.size() == first ||
-             (deepest_from(first, manifolds) < 0 && touch(a, b, warm_start)))) {
+             (deepest_from(first, manifolds) < least_touching(a, b) && touch(a, b, warm_start)))) {
             manifolds.erase(manifolds.begin() + static_cast<std::ptrdiff_t>(first),
                             manifolds.end());
             append_one_point(a, b, margin, warm_start, manifolds);

@@ -109,4 +109,15 @@ ContactFace contact_face(const Convex& body, const FaceTable& faces,
     return result;
 }
 
+ContactFace contact_face(const SupportShape& solid, const Vec3& direction, const Vec3& origin) {
+    const CurvedSide side = side_towards(solid, direction);
+    const Vec3 offset = solid.centre - origin;
+    ContactFace face;
+    face.normal = side.normal;
+    face.corners.reserve(side.corners.size());
+    for (const CurvedSide::Corner& corner : side.corners)
+        face.corners.push_back({corner.at + offset, corner.vertex, corner.edge});
+    return face;
+}
+
 } // namespace abut

@@ -4,6 +4,7 @@
 
 #include "geometry/rounded_box_distance.h"
 #include "math/vector.h"
+#include "world/curved/curved_side.h"
 #include "world/narrow_phase/face_table.h"
 
 #include <boost/container/small_vector.hpp>
@@ -44,5 +45,10 @@ ContactFace contact_face(const RoundedBox& box, const Vec3& direction, const Vec
 ContactFace contact_face(const Convex& body, const FaceTable& faces,
                          const Transform& world_from_body, const Vec3& direction,
                          const Vec3& origin);
+
+/// The part of a cylinder, a cone or an ellipsoid that faces a direction. Corners are relative to `origin`.
+///
+/// In          has_curved_side(solid).
+ContactFace contact_face(const SupportShape& solid, const Vec3& direction, const Vec3& origin);
 
 } // namespace abut

@@ -6,6 +6,7 @@
 #include "rigid/manifold/region_names.h"
 #include "rigid/model/placed_model.h"
 #include "world/contacts/solid_on_surface.h"
+#include "world/curved/curved_on_surface.h"
 
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
@@ -76,6 +77,15 @@ private:
     mutable std::optional<PlacedModel> faces_; ///< of the solid, in its frame
 };
 
+boost::container::small_vector<std::uint64_t, 8>
+names_of(const std::vector<ModelManifold>& manifolds) {
+    boost::container::small_vector<std::uint64_t, 8> names;
+    for (const ModelManifold& m : manifolds)
+        for (std::uint32_t i = 0; i < m.count; ++i)
+            names.push_back(m.points[i].feature);
+    return names;
+}
+
 /// Sets the triangle of a convex model on which each point lies.
 void set_triangles(const PlacedModel& model, bool is_a, std::vector<ModelManifold>& manifolds) {
     for (ModelManifold& m : manifolds)
@@ -122,10 +132,7 @@ std::optional<double> add_solid_regions(const PlacedBody& a, const PlacedBody& b
                                         std::vector<ModelManifold>& regions) {
     const std::vector<ModelManifold>& last = warm_start.regions.manifolds;
     const PlacedBody& ground = solid.is_a ? b : a;
-    boost::container::small_vector<std::uint64_t, 8> names;
-    for (const ModelManifold& m : last)
-        for (std::uint32_t i = 0; i < m.count; ++i)
-            names.push_back(m.points[i].feature);
+    const auto names = names_of(last);
     const OffsetSurface surface = *triangles_of(ground.shape);
     const auto rounding = add_solid_on_surface(
         *solid.faces, surface.surface, compose(ground.world_from_body, surface.body_from_surface),
@@ -137,6 +144,23 @@ std::optional<double> add_solid_regions(const PlacedBody& a, const PlacedBody& b
     if (const auto* model = std::get_if<Model>(solid.is_a ? &a.shape : &b.shape))
         set_triangles(PlacedModel(*model, (solid.is_a ? a : b).world_from_body), solid.is_a,
                       regions);
+    return rounding;
+}
+
+std::optional<double> add_curved_regions(const PlacedBody& a, const PlacedBody& b, double margin,
+                                         PairWarmStart& warm_start,
+                                         std::vector<ModelManifold>& regions) {
+    const std::vector<ModelManifold>& last = warm_start.regions.manifolds;
+    const bool solid_is_a = is_surface(b.shape);
+    const PlacedBody &body = solid_is_a ? a : b, &ground = solid_is_a ? b : a;
+    const OffsetSurface surface = *triangles_of(ground.shape);
+    const auto names = names_of(last);
+    const auto rounding = add_curved_on_surface(
+        placed(std::get<CurvedShape>(body.shape), body.world_from_body), surface.surface,
+        compose(ground.world_from_body, surface.body_from_surface), solid_is_a, margin,
+        std::span(names.data(), names.size()), regions);
+    if (rounding)
+        name_regions(regions, &last);
     return rounding;
 }
 

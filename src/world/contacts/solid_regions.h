@@ -37,4 +37,9 @@ std::optional<double> add_solid_regions(const PlacedBody& a, const PlacedBody& b
                                         PairWarmStart& warm_start,
                                         std::vector<ModelManifold>& regions);
 
+/// Adds the manifolds of a cylinder, a cone or an ellipsoid and a surface. Returns as add_solid_regions.
+std::optional<double> add_curved_regions(const PlacedBody& a, const PlacedBody& b, double margin,
+                                         PairWarmStart& warm_start,
+                                         std::vector<ModelManifold>& regions);
+
 } // namespace abut

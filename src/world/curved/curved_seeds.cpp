@@ -1,0 +1,370 @@
+#include "world/curved/curved_seeds.h"
+
+#include "convex/support/support_gap.h"
+#include "world/solids/contact_candidate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace abut {
+
+namespace {
+
+/// Parts of an edge, or of a distance, that are nothing but rounding.
+constexpr double kNothing = 0x1p-40;
+
+/// A number of an edge of the surface for names.
+std::uint32_t number_of(const NearEdge& edge) {
+    const auto [low, high] = std::minmax(edge.vertices[0], edge.vertices[1]);
+    std::uint64_t key = std::uint64_t{low} << 32U | high;
+    key *= 0x9E3779B97F4A7C15U;
+    return static_cast<std::uint32_t>(key >> 33U);
+}
+
+double across(double ax, double ay, double bx, double by) {
+    return ax * by - ay * bx;
+}
+
+/// A part of an edge, by parameters from 0 to 1, and the edges of the polygon at its ends.
+struct EdgePart {
+    double begin = 0, end = 1;
+    std::optional<std::uint32_t> begin_edge, end_edge;
+};
+
+/// Finds the seeds of one pair.
+class SeedSearch {
+public:
+    SeedSearch(const SupportShape& solid, const CurvedPatch& patch, const PatchBounds& bounds,
+               CurvedSeeds& found)
+        : solid_(solid), patch_(patch), bounds_(bounds), found_(found) {}
+
+    void find() {
+        find_faces();
+        for (const NearEdge& edge : patch_.edges())
+            add_edge(edge);
+        add_vertices();
+    }
+
+private:
+    // --- Faces -----------------------------------------------------------------------------------
+
+    void find_faces() {
+        const auto triangles = patch_.triangles();
+        by_plane_.clear();
+        for (std::uint32_t i = 0; i < triangles.size(); ++i)
+            if (triangles[i].is_front)
+                by_plane_.push_back(i);
+        std::sort(by_plane_.begin(), by_plane_.end(), [&](std::uint32_t i, std::uint32_t k) {
+            return triangles[i].plane != triangles[k].plane
+                       ? triangles[i].plane < triangles[k].plane
+                       : i < k;
+        });
+        for (std::size_t i = 0, end = 0; i < by_plane_.size(); i = end) {
+            for (end = i; end < by_plane_.size() &&
+                          triangles[by_plane_[end]].plane == triangles[by_plane_[i]].plane;)
+                ++end;
+            add_face(std::span(by_plane_).subspan(i, end - i));
+        }
+    }
+
+    void add_face(std::span<const std::uint32_t> plane) {
+        const NearTriangle& first = patch_.triangles()[plane.front()];
+        const Vec3& up = first.normal;
+        const CurvedSide side = side_towards(solid_, -up);
+        const CurvedSide::Corner& lowest = side.farthest(-up);
+        const double deepest = dot(up, first.corners[0] - lowest.at);
+        if (deepest < -bounds_.margin - bounds_.rounding)
+            return;
+        const bool is_flat = side.lies_across(up);
+        const ContactFrame frame({}, up);
+        begin_seed();
+        bool is_over = false; // the lowest corner is over the face
+        for (const CurvedSide::Corner& corner : side.corners)
+            for (const std::uint32_t i : plane)
+                if (add_corner(corner, patch_.triangles()[i], up)) {
+                    is_over = is_over || corner.vertex == lowest.vertex;
+                    break;
+                }
+        if (!is_over && !is_flat) {
+            found_.places.resize(begin_);
+            return;
+        }
+        for (const NearEdge& edge : patch_.edges())
+            if (!edge.is_flat && (patch_.triangles()[edge.triangles[0]].plane == first.plane ||
+                                  patch_.triangles()[edge.triangles[1]].plane == first.plane))
+                add_border(edge, first, side, frame);
+        end_seed(up, first.body);
+    }
+
+    /// Adds a corner of the solid if its foot along `up` lies in a triangle.
+    bool add_corner(const CurvedSide::Corner& corner, const NearTriangle& t, const Vec3& up) {
+        const Vec3 foot =
+            corner.at + (dot(t.normal, t.corners[0] - corner.at) / dot(t.normal, up)) * up;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 &p = t.corners[k], &q = t.corners[(k + 1) % 3], &r = t.corners[(k + 2) % 3];
+            const Vec3 way = q - p, inward = cross(t.normal, way);
+            const double sign = with_sign(1, dot(inward, r - p));
+            if (sign * dot(inward, foot - p) < -kNothing * solid_.reach * length(way))
+                return false;
+        }
+        found_.places.push_back({foot, corner.at, dot(up, foot - corner.at),
+                                 feature_name(FeatureKind::vertex_of_a, corner.vertex, 0), t.normal,
+                                 t.triangle});
+        return true;
+    }
+
+    /// Adds the ends of the part of a face's border that lies under the solid's side.
+    void add_border(const NearEdge& edge, const NearTriangle& face, const CurvedSide& side,
+                    const ContactFrame& frame) {
+        const auto part = part_under(edge, side, frame);
+        if (!part)
+            return;
+        for (const bool at_end : {false, true}) {
+            const double share = at_end ? part->end : part->begin;
+            const auto& cut = at_end ? part->end_edge : part->begin_edge;
+            const std::uint64_t name =
+                cut ? feature_name(FeatureKind::edges, *cut, number_of(edge))
+                    : feature_name(FeatureKind::vertex_of_b, 0, edge.vertices[at_end ? 1 : 0]);
+            add_place_over(edge.from + share * (edge.to - edge.from), side, frame, name,
+                           face.normal, face.triangle);
+        }
+    }
+
+    /// The part of an edge that lies under a side of the solid, seen along the frame's normal. None of a point.
+    [[nodiscard]] std::optional<EdgePart> part_under(const NearEdge& edge, const CurvedSide& side,
+                                                     const ContactFrame& frame) const {
+        const Vec3 p = frame.coordinates(edge.from), q = frame.coordinates(edge.to);
+        EdgePart part;
+        if (side.corners.size() == 2)
+            return part_on_line(p, q, side, frame);
+        if (!side.is_disc())
+            return std::nullopt;
+        // Along the normal into the solid, the polygon runs clockwise.
+        for (std::size_t i = 0; i < side.corners.size(); ++i) {
+            const CurvedSide::Corner &from = side.corners[i],
+                                     &to = side.corners[(i + 1) % side.corners.size()];
+            const Vec3 a = frame.coordinates(from.at), b = frame.coordinates(to.at);
+            const double at_p = -across(b.x - a.x, b.y - a.y, p.x - a.x, p.y - a.y),
+                         at_q = -across(b.x - a.x, b.y - a.y, q.x - a.x, q.y - a.y);
+            if (at_p < 0 && at_q < 0)
+                return std::nullopt;
+            if (at_p >= 0 && at_q >= 0)
+                continue;
+            const double t = at_p / (at_p - at_q);
+            if (at_p < 0 && t > part.begin)
+                part.begin = t, part.begin_edge = from.edge;
+            if (at_q < 0 && t < part.end)
+                part.end = t, part.end_edge = from.edge;
+        }
+        return part.begin <= part.end ? std::optional(part) : std::nullopt;
+    }
+
+    /// The place of an edge under a line of the solid; both ends of a part if they are parallel.
+    [[nodiscard]] std::optional<EdgePart> part_on_line(const Vec3& p, const Vec3& q,
+                                                       const CurvedSide& side,
+                                                       const ContactFrame& frame) const {
+        const Vec3 a = frame.coordinates(side.corners[0].at),
+                   b = frame.coordinates(side.corners[1].at);
+        const double way_x = b.x - a.x, way_y = b.y - a.y, edge_x = q.x - p.x, edge_y = q.y - p.y;
+        const double turn = across(way_x, way_y, edge_x, edge_y);
+        const double sizes = std::hypot(way_x, way_y) * std::hypot(edge_x, edge_y);
+        constexpr double kParallel = 0.01;
+        if (std::abs(turn) <= kParallel * sizes)
+            return std::nullopt;
+        const double on_line = across(p.x - a.x, p.y - a.y, edge_x, edge_y) / turn,
+                     on_edge = across(p.x - a.x, p.y - a.y, way_x, way_y) / turn;
+        if (!(on_line >= 0 && on_line <= 1 && on_edge >= 0 && on_edge <= 1))
+            return std::nullopt;
+        EdgePart part;
+        part.begin = part.end = on_edge;
+        part.begin_edge = part.end_edge = side.corners[0].edge;
+        return part;
+    }
+
+    /// Adds a place of the surface under the solid's side.
+    void add_place_over(const Vec3& on_surface, const CurvedSide& side, const ContactFrame& frame,
+                        std::uint64_t name, const Vec3& plane, std::uint32_t triangle) {
+        const Vec3& up = frame.normal;
+        double height = 0;
+        if (side.is_disc()) {
+            height = dot(side.normal, side.corners[0].at - on_surface) / dot(side.normal, up);
+        } else {
+            const auto inside = part_inside(solid_, on_surface, up);
+            if (!inside)
+                return;
+            height = inside->begin;
+        }
+        found_.places.push_back(
+            {on_surface, on_surface + height * up, -height, name, plane, triangle});
+    }
+
+    // --- Edges -----------------------------------------------------------------------------------
+
+    void add_edge(const NearEdge& edge) {
+        const NearTriangle *one = &patch_.triangles()[edge.triangles[0]],
+                           *other = &patch_.triangles()[edge.triangles[1]];
+        if (edge.is_flat || !(edge.is_border || edge.is_convex))
+            return;
+        if (!one->is_front)
+            std::swap(one, other);
+        const Vec3 along = normalized_or_zero(edge.to - edge.from);
+        if (!one->is_front || along == Vec3{})
+            return;
+        // From the triangle over the edge, and on to the other triangle's normal.
+        Vec3 out = cross(one->normal, along);
+        const Vec3 inward =
+            one->corners[0] + one->corners[1] + one->corners[2] - 1.5 * (edge.from + edge.to);
+        if (dot(out, inward) > 0)
+            out = -out;
+        const double most =
+            edge.is_border ? 0.5 * std::numbers::pi
+                           : std::atan2(dot(other->normal, out), dot(other->normal, one->normal));
+        const auto up_at = [&](double angle) {
+            return std::cos(angle) * one->normal + std::sin(angle) * out;
+        };
+        const auto slope_at = [&](double angle) {
+            const Vec3 turned = std::cos(angle) * out - std::sin(angle) * one->normal;
+            return dot(turned, edge.from - farthest(solid_, -up_at(angle)));
+        };
+        const double nothing = kNothing * solid_.reach;
+        if (!(most > 0) || slope_at(0) >= -nothing || slope_at(most) <= nothing)
+            return;
+        double low = 0, high = most;
+        for (int i = 0; i < 64 && low < high; ++i) {
+            const double middle = 0.5 * (low + high);
+            (slope_at(middle) < 0 ? low : high) = middle;
+        }
+        add_edge_along(edge, *one, up_at(0.5 * (low + high)));
+    }
+
+    void add_edge_along(const NearEdge& edge, const NearTriangle& face, const Vec3& up) {
+        const CurvedSide side = side_towards(solid_, -up);
+        const CurvedSide::Corner& lowest = side.farthest(-up);
+        const double depth = dot(up, edge.from - lowest.at);
+        if (depth < -bounds_.margin - bounds_.rounding)
+            return;
+        begin_seed();
+        const ContactFrame frame({}, up);
+        const Vec3 way = edge.to - edge.from;
+        const auto share_of = [&](const Vec3& p) {
+            return dot(p - edge.from, way) / length_sq(way);
+        };
+        const auto at = [&](double share) { return edge.from + share * way; };
+        const std::uint32_t number = number_of(edge);
+        if (side.lies_across(up)) {
+            if (const auto part = part_under(edge, side, frame)) {
+                add_place_over(
+                    at(part->begin), side, frame,
+                    feature_name(FeatureKind::edges, part->begin_edge.value_or(63), number), up,
+                    face.triangle);
+                if (part->end > part->begin)
+                    add_place_over(
+                        at(part->end), side, frame,
+                        feature_name(FeatureKind::edges, part->end_edge.value_or(62), number), up,
+                        face.triangle);
+            } else if (side.corners.size() == 2) { // nearly parallel, or beside each other
+                for (const CurvedSide::Corner& corner : side.corners)
+                    add_place_over(at(std::clamp(share_of(corner.at), 0.0, 1.0)), side, frame,
+                                   feature_name(FeatureKind::edges, corner.vertex, number), up,
+                                   face.triangle);
+            }
+        }
+        if (found_.places.size() == begin_) {
+            const double share = share_of(lowest.at);
+            if (share < 0 || share > 1)
+                return; // a vertex is nearer
+            const Vec3 foot = at(share);
+            found_.places.push_back({foot, foot - depth * up, depth,
+                                     feature_name(FeatureKind::vertex_of_a, lowest.vertex, 0), up,
+                                     face.triangle});
+        }
+        end_seed(up, face.body);
+    }
+
+    // --- Vertices --------------------------------------------------------------------------------
+
+    void add_vertices() {
+        ends_.clear();
+        for (const NearEdge& edge : patch_.edges())
+            for (const std::size_t k : {0U, 1U})
+                ends_.push_back({edge.vertices.at(k), k == 0 ? edge.from : edge.to,
+                                 k == 0 ? edge.to : edge.from, &edge});
+        std::stable_sort(ends_.begin(), ends_.end(),
+                         [](const End& s, const End& t) { return s.vertex < t.vertex; });
+        for (std::size_t i = 0, end = 0; i < ends_.size(); i = end) {
+            for (end = i; end < ends_.size() && ends_[end].vertex == ends_[i].vertex;)
+                ++end;
+            add_vertex(std::span(ends_).subspan(i, end - i));
+        }
+    }
+
+    /// An edge at a vertex.
+    struct End {
+        std::uint32_t vertex = 0;
+        Vec3 at, other;
+        const NearEdge* edge = nullptr;
+    };
+
+    void add_vertex(std::span<const End> ends) {
+        const NearTriangle* front = nullptr;
+        for (const End& end : ends)
+            if (!end.edge->is_flat && (end.edge->is_border || end.edge->is_convex))
+                for (const std::uint32_t i : end.edge->triangles)
+                    if (patch_.triangles()[i].is_front && front == nullptr)
+                        front = &patch_.triangles()[i];
+        if (front == nullptr)
+            return;
+        const Vec3& at = ends.front().at;
+        SupportShape point;
+        point.centre = at;
+        Vec3 direction;
+        const SupportGap gap =
+            support_gap(point, solid_, std::nextafter(bounds_.margin + bounds_.rounding, HUGE_VAL),
+                        SupportDepths::yes, direction);
+        if (gap.distance > bounds_.margin + bounds_.rounding || gap.normal == Vec3{})
+            return;
+        for (const End& end : ends)
+            if (dot(gap.normal, end.other - at) > kNothing * solid_.reach)
+                return; // an edge there rises towards the solid
+        begin_seed();
+        found_.places.push_back({at, at + gap.distance * gap.normal, -gap.distance,
+                                 feature_name(FeatureKind::vertex_of_b, 0, ends.front().vertex),
+                                 gap.normal, front->triangle});
+        end_seed(gap.normal, front->body);
+    }
+
+    // --- Both ------------------------------------------------------------------------------------
+
+    void begin_seed() { begin_ = static_cast<std::uint32_t>(found_.places.size()); }
+    void end_seed(const Vec3& up, std::uint32_t body) {
+        CurvedSeed seed{up, -HUGE_VAL, body, begin_, begin_};
+        for (std::uint32_t i = begin_; i < found_.places.size(); ++i)
+            if (found_.places[i].depth >= -bounds_.margin - bounds_.rounding) {
+                seed.depth = std::max(seed.depth, found_.places[i].depth);
+                found_.places[seed.end++] = found_.places[i];
+            }
+        found_.places.resize(seed.end);
+        if (seed.end > seed.begin)
+            found_.seeds.push_back(seed);
+    }
+
+    const SupportShape& solid_;
+    const CurvedPatch& patch_;
+    const PatchBounds& bounds_;
+    CurvedSeeds& found_;
+    std::vector<std::uint32_t> by_plane_;
+    std::vector<End> ends_;
+    std::uint32_t begin_ = 0;
+};
+
+} // namespace
+
+void find_seeds(const SupportShape& solid, const CurvedPatch& patch, const PatchBounds& bounds,
+                CurvedSeeds& found) {
+    found.seeds.clear(), found.places.clear();
+    SeedSearch(solid, patch, bounds, found).find();
+}
+
+} // namespace abut
