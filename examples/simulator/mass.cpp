@@ -42,6 +42,30 @@ Mass mass_of(const abut::Box3& box, double density) {
             k * diagonal(squares.y + squares.z, squares.z + squares.x, squares.x + squares.y)};
 }
 
+Mass mass_of(const abut::Cylinder& cylinder, double density) {
+    const Vec3 axis = cylinder.axis.b - cylinder.axis.a;
+    const double r = cylinder.radius, l = length(axis);
+    const double mass = density * std::numbers::pi * r * r * l;
+    const double along = mass * r * r / 2, sideways = mass * (3 * r * r + l * l) / 12;
+    Matrix inertia = sideways * Matrix{};
+    if (l > 0)
+        inertia = inertia + (along - sideways) * outer_square((1 / l) * axis);
+    return {mass, 0.5 * (cylinder.axis.a + cylinder.axis.b), inertia};
+}
+
+Mass mass_of(const abut::Cone& cone, double density) {
+    const Vec3 axis = cone.apex - cone.base;
+    const double r = cone.radius, l = length(axis);
+    const double mass = density * std::numbers::pi * r * r * l / 3;
+    // Its centre of mass lies a quarter of the way from the base to the apex.
+    const double along = 0.3 * mass * r * r,
+                 sideways = 0.15 * mass * r * r + 3.0 / 80 * mass * l * l;
+    Matrix inertia = sideways * Matrix{};
+    if (l > 0)
+        inertia = inertia + (along - sideways) * outer_square((1 / l) * axis);
+    return {mass, cone.base + 0.25 * axis, inertia};
+}
+
 /// The sum over the tetrahedra between a point and each triangle, with the sign of their volumes.
 /// Of a tetrahedron with one corner at the origin and the others a, b, c:
 ///

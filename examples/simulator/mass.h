@@ -19,6 +19,8 @@ struct Mass {
 Mass mass_of(const abut::Sphere& sphere, double density);
 Mass mass_of(const abut::Capsule& capsule, double density);
 Mass mass_of(const abut::Box3& box, double density);
+Mass mass_of(const abut::Cylinder& cylinder, double density);
+Mass mass_of(const abut::Cone& cone, double density);
 /// Accuracy    exact integrals over tetrahedra, to rounding.
 /// Errors      of this and the next two: Error{bad_argument} if the surface encloses no volume,
 ///             for example because it is inside out. Two cases are not recognised: a flat

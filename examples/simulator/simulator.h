@@ -25,7 +25,7 @@ public:
     ///             are no sub-steps.
     explicit Simulator(const Settings& settings = {});
 
-    /// Adds a sphere, a capsule, a box, a `Convex` or a `Model`.
+    /// Adds a sphere, a capsule, a box, a cylinder, a cone, a `Convex` or a `Model`.
     ///
     /// Errors      abut::Error{bad_argument} as `World::add`; if a value of the material is not
     ///             finite or negative, or `bounce` exceeds 1; if a body of positive density has no

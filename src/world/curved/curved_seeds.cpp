@@ -264,11 +264,8 @@ private:
                         at(part->end), side, frame,
                         feature_name(FeatureKind::edges, part->end_edge.value_or(62), number), up,
                         face.triangle);
-            } else if (side.corners.size() == 2) { // nearly parallel, or beside each other
-                for (const CurvedSide::Corner& corner : side.corners)
-                    add_place_over(at(std::clamp(share_of(corner.at), 0.0, 1.0)), side, frame,
-                                   feature_name(FeatureKind::edges, corner.vertex, number), up,
-                                   face.triangle);
+            } else if (side.corners.size() == 2) {
+                add_line_along(edge, side, frame, face.triangle);
             }
         }
         if (found_.places.size() == begin_) {
@@ -281,6 +278,35 @@ private:
                                      face.triangle});
         }
         end_seed(up, face.body);
+    }
+
+    /// Adds the ends of the part in which a line of the solid and an edge that is nearly parallel to it lie over
+    /// each other.
+    void add_line_along(const NearEdge& edge, const CurvedSide& side, const ContactFrame& frame,
+                        std::uint32_t triangle) {
+        const Vec3 way = edge.to - edge.from;
+        const Vec3& up = frame.normal;
+        for (const std::size_t k : {0U, 1U}) {
+            const CurvedSide::Corner &corner = side.corners[k], &other = side.corners[1 - k];
+            const std::uint64_t name =
+                feature_name(FeatureKind::edges, corner.vertex, number_of(edge));
+            // A line through an end leaves the solid somewhere by rounding.
+            constexpr double kInwards = 0x1p-20;
+            const auto share_of = [&](const Vec3& p) {
+                return dot(p - edge.from, way) / length_sq(way);
+            };
+            const double share = share_of(corner.at);
+            const Vec3 foot = edge.from + share * way;
+            const double depth = dot(up, foot - corner.at);
+            if (share >= 0 && share <= 1 &&
+                length(corner.at + depth * up - foot) <= bounds_.rounding) {
+                found_.places.push_back({foot, foot - depth * up, depth, name, up, triangle});
+                continue;
+            }
+            const double inner = share_of(corner.at + kInwards * (other.at - corner.at));
+            add_place_over(edge.from + std::clamp(inner, 0.0, 1.0) * way, side, frame, name, up,
+                           triangle);
+        }
     }
 
     // --- Vertices --------------------------------------------------------------------------------
