@@ -87,7 +87,8 @@ private:
                     is_over = is_over || corner.vertex == lowest.vertex;
                     break;
                 }
-        if (!is_over && !is_flat) {
+        const bool is_deep = deepest > bounds_.rounding;
+        if ((!is_over && !is_flat) || (is_deep && !meets(plane))) {
             found_.places.resize(begin_);
             return;
         }
@@ -96,6 +97,17 @@ private:
                                   patch_.triangles()[edge.triangles[1]].plane == first.plane))
                 add_border(edge, first, side, frame);
         end_seed(up, first.body);
+    }
+
+    /// Whether the solid meets one of some triangles. What lies over its lowest corner may lie above the solid.
+    [[nodiscard]] bool meets(std::span<const std::uint32_t> plane) {
+        return std::any_of(plane.begin(), plane.end(), [&](std::uint32_t i) {
+            return meets(support_of(patch_.triangles()[i].corners));
+        });
+    }
+    [[nodiscard]] bool meets(const SupportShape& part) {
+        return support_gap(part, solid_, bounds_.rounding, SupportDepths::no, direction_)
+                   .distance <= bounds_.rounding;
     }
 
     /// Adds a corner of the solid if its foot along `up` lies in a triangle.
@@ -243,7 +255,8 @@ private:
         const CurvedSide side = side_towards(solid_, -up);
         const CurvedSide::Corner& lowest = side.farthest(-up);
         const double depth = dot(up, edge.from - lowest.at);
-        if (depth < -bounds_.margin - bounds_.rounding)
+        if (depth < -bounds_.margin - bounds_.rounding ||
+            (depth > bounds_.rounding && !meets(support_of(Triangle{edge.from, edge.to, edge.to}))))
             return;
         begin_seed();
         const ContactFrame frame({}, up);
@@ -383,6 +396,7 @@ private:
     std::vector<std::uint32_t> by_plane_;
     std::vector<End> ends_;
     std::uint32_t begin_ = 0;
+    Vec3 direction_; ///< of the last distance: a guess for the next one
 };
 
 } // namespace
