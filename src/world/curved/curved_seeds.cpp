@@ -282,10 +282,13 @@ private:
             }
         }
         if (found_.places.size() == begin_) {
+            // Not over the edge: a vertex is nearer, or the edge is beside the line or disc.
+            constexpr double kOver = 0x1p-20;
             const double share = share_of(lowest.at);
-            if (share < 0 || share > 1)
-                return; // a vertex is nearer
             const Vec3 foot = at(share);
+            if (share < 0 || share > 1 ||
+                length(lowest.at + depth * up - foot) > kOver * solid_.reach)
+                return;
             found_.places.push_back({foot, foot - depth * up, depth,
                                      feature_name(FeatureKind::vertex_of_a, lowest.vertex, 0), up,
                                      face.triangle});
@@ -299,15 +302,19 @@ private:
                         std::uint32_t triangle) {
         const Vec3 way = edge.to - edge.from;
         const Vec3& up = frame.normal;
+        const auto share_of = [&](const Vec3& p) {
+            return dot(p - edge.from, way) / length_sq(way);
+        };
+        const auto [low, high] =
+            std::minmax({share_of(side.corners[0].at), share_of(side.corners[1].at)});
+        if (low > 1 || high < 0)
+            return;
         for (const std::size_t k : {0U, 1U}) {
             const CurvedSide::Corner &corner = side.corners[k], &other = side.corners[1 - k];
             const std::uint64_t name =
                 feature_name(FeatureKind::edges, corner.vertex, number_of(edge));
             // A line through an end leaves the solid somewhere by rounding.
             constexpr double kInwards = 0x1p-20;
-            const auto share_of = [&](const Vec3& p) {
-                return dot(p - edge.from, way) / length_sq(way);
-            };
             const double share = share_of(corner.at);
             const Vec3 foot = edge.from + share * way;
             const double depth = dot(up, foot - corner.at);
