@@ -81,23 +81,35 @@ private:
         const Vec3& up = memory_.normals[k];
         for (std::uint32_t i = seed.begin; i < seed.end; ++i) {
             CurvedPlace place = memory_.found.places[i];
-            if (up != seed.up)
-                turn(place, up);
+            if (up != seed.up && !turn(place, up))
+                continue;
             if (place.depth >= -bounds_.margin - bounds_.rounding)
                 add_once(memory_.groups[k], place);
         }
     }
 
     /// Measures a place along another direction: from its point on the surface, or, where the line misses the
-    /// solid, from its point on the solid.
-    void turn(CurvedPlace& place, const Vec3& up) const {
+    /// solid, as at a rim, from its point on the solid. Returns whether the other end is found.
+    [[nodiscard]] bool turn(CurvedPlace& place, const Vec3& up) const {
         if (const auto inside = part_inside(solid_, place.on_surface, up)) {
             place.depth = -inside->begin;
             place.on_solid = place.on_surface + inside->begin * up;
-            return;
+            return true;
         }
-        place.depth = dot(place.plane, place.on_surface - place.on_solid) / dot(place.plane, up);
-        place.on_surface = place.on_solid + place.depth * up;
+        std::optional<CurvedPlace> nearest;
+        for (const NearTriangle& t : memory_.patch.triangles()) {
+            constexpr double kUpright = 0.1;
+            if (!(dot(t.normal, up) > kUpright))
+                continue;
+            const auto foot = foot_on(t, place.on_solid, up, bounds_.rounding);
+            const double depth = foot ? dot(up, *foot - place.on_solid) : 0;
+            if (foot && (!nearest ||
+                         std::abs(depth - place.depth) < std::abs(nearest->depth - place.depth)))
+                nearest = CurvedPlace{*foot, place.on_solid, depth, place.feature, t.triangle};
+        }
+        if (nearest)
+            place = *nearest;
+        return nearest.has_value();
     }
 
     /// Of places with one name, the deepest remains.

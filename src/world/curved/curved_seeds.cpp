@@ -112,17 +112,11 @@ private:
 
     /// Adds a corner of the solid if its foot along `up` lies in a triangle.
     bool add_corner(const CurvedSide::Corner& corner, const NearTriangle& t, const Vec3& up) {
-        const Vec3 foot =
-            corner.at + (dot(t.normal, t.corners[0] - corner.at) / dot(t.normal, up)) * up;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3 &p = t.corners[k], &q = t.corners[(k + 1) % 3], &r = t.corners[(k + 2) % 3];
-            const Vec3 way = q - p, inward = cross(t.normal, way);
-            const double sign = with_sign(1, dot(inward, r - p));
-            if (sign * dot(inward, foot - p) < -kNothing * solid_.reach * length(way))
-                return false;
-        }
-        found_.places.push_back({foot, corner.at, dot(up, foot - corner.at),
-                                 feature_name(FeatureKind::vertex_of_a, corner.vertex, 0), t.normal,
+        const auto foot = foot_on(t, corner.at, up, kNothing * solid_.reach);
+        if (!foot)
+            return false;
+        found_.places.push_back({*foot, corner.at, dot(up, *foot - corner.at),
+                                 feature_name(FeatureKind::vertex_of_a, corner.vertex, 0),
                                  t.triangle});
         return true;
     }
@@ -140,7 +134,7 @@ private:
                 cut ? feature_name(FeatureKind::edges, *cut, number_of(edge))
                     : feature_name(FeatureKind::vertex_of_b, 0, edge.vertices[at_end ? 1 : 0]);
             add_place_over(edge.from + share * (edge.to - edge.from), side, frame, name,
-                           face.normal, face.triangle);
+                           face.triangle);
         }
     }
 
@@ -197,7 +191,7 @@ private:
 
     /// Adds a place of the surface under the solid's side.
     void add_place_over(const Vec3& on_surface, const CurvedSide& side, const ContactFrame& frame,
-                        std::uint64_t name, const Vec3& plane, std::uint32_t triangle) {
+                        std::uint64_t name, std::uint32_t triangle) {
         const Vec3& up = frame.normal;
         double height = 0;
         if (side.is_disc()) {
@@ -208,8 +202,7 @@ private:
                 return;
             height = inside->begin;
         }
-        found_.places.push_back(
-            {on_surface, on_surface + height * up, -height, name, plane, triangle});
+        found_.places.push_back({on_surface, on_surface + height * up, -height, name, triangle});
     }
 
     // --- Edges -----------------------------------------------------------------------------------
@@ -270,12 +263,12 @@ private:
             if (const auto part = part_under(edge, side, frame)) {
                 add_place_over(
                     at(part->begin), side, frame,
-                    feature_name(FeatureKind::edges, part->begin_edge.value_or(63), number), up,
+                    feature_name(FeatureKind::edges, part->begin_edge.value_or(63), number),
                     face.triangle);
                 if (part->end > part->begin)
                     add_place_over(
                         at(part->end), side, frame,
-                        feature_name(FeatureKind::edges, part->end_edge.value_or(62), number), up,
+                        feature_name(FeatureKind::edges, part->end_edge.value_or(62), number),
                         face.triangle);
             } else if (side.corners.size() == 2) {
                 add_line_along(edge, side, frame, face.triangle);
@@ -290,7 +283,7 @@ private:
                 length(lowest.at + depth * up - foot) > kOver * solid_.reach)
                 return;
             found_.places.push_back({foot, foot - depth * up, depth,
-                                     feature_name(FeatureKind::vertex_of_a, lowest.vertex, 0), up,
+                                     feature_name(FeatureKind::vertex_of_a, lowest.vertex, 0),
                                      face.triangle});
         }
         end_seed(up, face.body);
@@ -320,11 +313,11 @@ private:
             const double depth = dot(up, foot - corner.at);
             if (share >= 0 && share <= 1 &&
                 length(corner.at + depth * up - foot) <= bounds_.rounding) {
-                found_.places.push_back({foot, foot - depth * up, depth, name, up, triangle});
+                found_.places.push_back({foot, foot - depth * up, depth, name, triangle});
                 continue;
             }
             const double inner = share_of(corner.at + kInwards * (other.at - corner.at));
-            add_place_over(edge.from + std::clamp(inner, 0.0, 1.0) * way, side, frame, name, up,
+            add_place_over(edge.from + std::clamp(inner, 0.0, 1.0) * way, side, frame, name,
                            triangle);
         }
     }
@@ -377,7 +370,7 @@ private:
         begin_seed();
         found_.places.push_back({at, at + gap.distance * gap.normal, -gap.distance,
                                  feature_name(FeatureKind::vertex_of_b, 0, ends.front().vertex),
-                                 gap.normal, front->triangle});
+                                 front->triangle});
         end_seed(gap.normal, front->body);
     }
 
@@ -407,6 +400,19 @@ private:
 };
 
 } // namespace
+
+std::optional<Vec3> foot_on(const NearTriangle& t, const Vec3& from, const Vec3& up,
+                            double rounding) {
+    const Vec3 foot = from + (dot(t.normal, t.corners[0] - from) / dot(t.normal, up)) * up;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 &p = t.corners[k], &q = t.corners[(k + 1) % 3], &r = t.corners[(k + 2) % 3];
+        const Vec3 way = q - p, inward = cross(t.normal, way);
+        const double sign = with_sign(1, dot(inward, r - p));
+        if (sign * dot(inward, foot - p) < -rounding * length(way))
+            return std::nullopt;
+    }
+    return foot;
+}
 
 void find_seeds(const SupportShape& solid, const CurvedPatch& patch, const PatchBounds& bounds,
                 CurvedSeeds& found) {

@@ -3,6 +3,7 @@
 #include "world/curved/curved_patch.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace abut {
@@ -12,7 +13,6 @@ struct CurvedPlace {
     Vec3 on_surface, on_solid; ///< on one line along the normal
     double depth = 0;
     std::uint64_t feature = 0; ///< as if the solid were a
-    Vec3 plane;                ///< normal of the surface there
     std::uint32_t triangle = 0;
 };
 
@@ -29,6 +29,12 @@ struct CurvedSeeds {
     std::vector<CurvedSeed> seeds;
     std::vector<CurvedPlace> places;
 };
+
+/// Where a line along `up` meets a triangle; none if it passes by it.
+///
+/// In          up: not along the triangle. rounding: such a place may lie so far beyond an edge.
+std::optional<Vec3> foot_on(const NearTriangle& t, const Vec3& from, const Vec3& up,
+                            double rounding);
 
 /// Finds the directions of all faces, edges and vertices near a solid.
 ///
