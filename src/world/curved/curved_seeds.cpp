@@ -224,24 +224,47 @@ private:
         if (dot(out, inward) > 0)
             out = -out;
         const double most =
-            edge.is_border ? 0.5 * std::numbers::pi
+            edge.is_border ? std::numbers::pi
                            : std::atan2(dot(other->normal, out), dot(other->normal, one->normal));
+        if (const auto up = least_on_arc(edge.from, one->normal, out, most))
+            add_edge_along(edge, *one, *up);
+    }
+
+    /// The direction between the ends of an arc in which a line is nearest to the solid, or leaves it soonest.
+    /// None if that is an end of the arc.
+    ///
+    /// In          at: a point of the line. from, out: unit vectors across the line and each other; the arc
+    ///             turns from the first to the second, by `most`.
+    [[nodiscard]] std::optional<Vec3> least_on_arc(const Vec3& at, const Vec3& from,
+                                                   const Vec3& out, double most) const {
         const auto up_at = [&](double angle) {
-            return std::cos(angle) * one->normal + std::sin(angle) * out;
+            return std::cos(angle) * from + std::sin(angle) * out;
         };
         const auto slope_at = [&](double angle) {
-            const Vec3 turned = std::cos(angle) * out - std::sin(angle) * one->normal;
-            return dot(turned, edge.from - farthest(solid_, -up_at(angle)));
+            const Vec3 turned = std::cos(angle) * out - std::sin(angle) * from;
+            return dot(turned, at - farthest(solid_, -up_at(angle)));
         };
+        const auto depth_at = [&](const Vec3& up) { return dot(up, at - farthest(solid_, -up)); };
+        // Of a line that is apart, there is one minimum; of a line inside, there may be several.
+        constexpr int kParts = 12;
         const double nothing = kNothing * solid_.reach;
-        if (!(most > 0) || slope_at(0) >= -nothing || slope_at(most) <= nothing)
-            return;
-        double low = 0, high = most;
-        for (int i = 0; i < 64 && low < high; ++i) {
-            const double middle = 0.5 * (low + high);
-            (slope_at(middle) < 0 ? low : high) = middle;
+        std::optional<Vec3> best;
+        double least = HUGE_VAL, next = most > 0 ? slope_at(0) : 0;
+        for (int i = 0; i < kParts && most > 0; ++i) {
+            double low = most * i / kParts, high = most * (i + 1) / kParts;
+            const double here = next;
+            next = slope_at(high);
+            if (here >= -nothing || next <= nothing)
+                continue;
+            for (int k = 0; k < 64 && low < high; ++k) {
+                const double middle = 0.5 * (low + high);
+                (slope_at(middle) < 0 ? low : high) = middle;
+            }
+            const Vec3 up = up_at(0.5 * (low + high));
+            if (const double depth = depth_at(up); depth < least)
+                least = depth, best = up;
         }
-        add_edge_along(edge, *one, up_at(0.5 * (low + high)));
+        return best;
     }
 
     void add_edge_along(const NearEdge& edge, const NearTriangle& face, const Vec3& up) {
