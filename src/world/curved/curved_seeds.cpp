@@ -215,7 +215,8 @@ private:
         if (!one->is_front)
             std::swap(one, other);
         const Vec3 along = normalized_or_zero(edge.to - edge.from);
-        if (!one->is_front || along == Vec3{})
+        // Both sides of a border's triangle are outside.
+        if ((!one->is_front && !edge.is_border) || along == Vec3{})
             return;
         // From the triangle over the edge, and on to the other triangle's normal.
         Vec3 out = cross(one->normal, along);
@@ -374,7 +375,7 @@ private:
         for (const End& end : ends)
             if (!end.edge->is_flat && (end.edge->is_border || end.edge->is_convex))
                 for (const std::uint32_t i : end.edge->triangles)
-                    if (patch_.triangles()[i].is_front && front == nullptr)
+                    if (front == nullptr && (end.edge->is_border || patch_.triangles()[i].is_front))
                         front = &patch_.triangles()[i];
         if (front == nullptr)
             return;
