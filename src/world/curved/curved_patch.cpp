@@ -7,6 +7,7 @@
 #include "rigid/model/solid.h"
 
 #include <algorithm>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <numeric>
 
@@ -27,15 +28,26 @@ std::array<Vec3, 8> corners_of_box(const SupportShape& solid) {
     return corners;
 }
 
+/// Whether points are all beyond one side of the box around a solid by more than a distance.
+template <std::size_t kCount>
+bool is_beside(const SupportShape& solid, const std::array<Vec3, kCount>& points, double distance) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        double low = HUGE_VAL, high = -HUGE_VAL;
+        for (const Vec3& p : points) {
+            const double along = dot(solid.axis[k], p);
+            low = std::min(low, along), high = std::max(high, along);
+        }
+        if (low > solid.half[k] + distance || high < -solid.half[k] - distance)
+            return true;
+    }
+    return false;
+}
+
 /// Whether a triangle is certainly farther from the solid than a distance: beyond a side of its box, or
 /// because the solid lies beyond its plane.
 bool is_far(const SupportShape& solid, const Triangle& t, const Vec3& normal, double distance) {
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double p = dot(solid.axis[k], t[0]), q = dot(solid.axis[k], t[1]),
-                     r = dot(solid.axis[k], t[2]), reach = solid.half[k] + distance;
-        if (std::min({p, q, r}) > reach || std::max({p, q, r}) < -reach)
-            return true;
-    }
+    if (is_beside(solid, t, distance))
+        return true;
     const double height = dot(normal, t[0]);
     return height > dot(normal, farthest(solid, normal)) + distance ||
            height < dot(normal, farthest(solid, -normal)) - distance;
@@ -98,11 +110,11 @@ void CurvedPatch::find_edges() {
 /// Turns the triangles of an open surface to the solid's centre, the nearest first, and with each those that
 /// hang together with it.
 void CurvedPatch::face_centre() {
-    sets_.reset(triangles_.size());
-    std::vector<std::vector<std::uint32_t>> edges_at(triangles_.size());
+    std::vector<boost::container::static_vector<std::uint32_t, 3>> edges_at(triangles_.size());
     for (std::uint32_t k = 0; k < edges_.size(); ++k)
-        for (const std::uint32_t i : edges_[k].triangles)
-            edges_at[i].push_back(k);
+        if (!edges_[k].is_border)
+            for (const std::uint32_t i : edges_[k].triangles)
+                edges_at[i].push_back(k);
     std::vector<std::uint32_t> order(triangles_.size()), next;
     std::iota(order.begin(), order.end(), 0U);
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t k) {
@@ -142,8 +154,10 @@ void CurvedPatch::face_centre() {
     }
 }
 
-void CurvedPatch::mark_edges(const PatchBounds& bounds) {
+void CurvedPatch::mark_edges(const SupportShape& solid, const PatchBounds& bounds) {
     for (NearEdge& edge : edges_) {
+        edge.is_near =
+            !is_beside(solid, std::array{edge.from, edge.to}, bounds.margin + bounds.rounding);
         if (edge.is_border)
             continue;
         const NearTriangle &s = triangles_[edge.triangles[0]], &t = triangles_[edge.triangles[1]];
@@ -208,7 +222,7 @@ bool CurvedPatch::collect(const SupportShape& solid, const PlacedModel& surface,
         face_centre();
     for (NearTriangle& t : triangles_)
         t.is_front = dot(t.normal, t.corners[0]) < 0;
-    mark_edges(bounds);
+    mark_edges(solid, bounds);
     join(solid, bounds);
     return is_outside();
 }

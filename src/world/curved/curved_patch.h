@@ -33,6 +33,7 @@ struct NearEdge {
     bool is_flat = false;   ///< between two triangles in one plane
     bool is_convex = false; ///< between two triangles, and no hollow
     bool is_border = false; ///< of one triangle
+    bool is_near = false;   ///< false if it is certainly farther from the solid than the margin
 };
 
 /// How far positions may be off, and the largest gap.
@@ -61,7 +62,7 @@ private:
              const PatchBounds& bounds);
     void find_edges();
     void face_centre();
-    void mark_edges(const PatchBounds& bounds);
+    void mark_edges(const SupportShape& solid, const PatchBounds& bounds);
     void join(const SupportShape& solid, const PatchBounds& bounds);
     [[nodiscard]] bool is_outside() const;
 

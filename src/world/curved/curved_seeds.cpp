@@ -93,8 +93,9 @@ private:
             return;
         }
         for (const NearEdge& edge : patch_.edges())
-            if (!edge.is_flat && (patch_.triangles()[edge.triangles[0]].plane == first.plane ||
-                                  patch_.triangles()[edge.triangles[1]].plane == first.plane))
+            if (edge.is_near && !edge.is_flat &&
+                (patch_.triangles()[edge.triangles[0]].plane == first.plane ||
+                 patch_.triangles()[edge.triangles[1]].plane == first.plane))
                 add_border(edge, first, side, frame);
         end_seed(up, first.body);
     }
@@ -210,7 +211,7 @@ private:
     void add_edge(const NearEdge& edge) {
         const NearTriangle *one = &patch_.triangles()[edge.triangles[0]],
                            *other = &patch_.triangles()[edge.triangles[1]];
-        if (edge.is_flat || !(edge.is_border || edge.is_convex))
+        if (!edge.is_near || edge.is_flat || !(edge.is_border || edge.is_convex))
             return;
         if (!one->is_front)
             std::swap(one, other);
@@ -373,7 +374,8 @@ private:
     void add_vertex(std::span<const End> ends) {
         const NearTriangle* front = nullptr;
         for (const End& end : ends)
-            if (!end.edge->is_flat && (end.edge->is_border || end.edge->is_convex))
+            if (end.edge->is_near && !end.edge->is_flat &&
+                (end.edge->is_border || end.edge->is_convex))
                 for (const std::uint32_t i : end.edge->triangles)
                     if (front == nullptr && (end.edge->is_border || patch_.triangles()[i].is_front))
                         front = &patch_.triangles()[i];

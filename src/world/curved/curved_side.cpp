@@ -70,7 +70,7 @@ CurvedSide line_of(const SupportShape& solid, const LocalDirection& d) {
 }
 
 /// Keeps the part of a line where a t^2 + 2 b t + c <= 0, which is one piece. In: a is not negative.
-bool keep_below(double a, double b, double c, LinePart& part) {
+bool keep_below(double a, double b, double c, LineChord& part) {
     if (!(a > 0)) {
         return c <= 0;
     }
@@ -86,7 +86,7 @@ bool keep_below(double a, double b, double c, LinePart& part) {
 }
 
 /// Keeps the part of a line where low <= p + t v <= high.
-bool keep_between(double p, double v, double low, double high, LinePart& part) {
+bool keep_between(double p, double v, double low, double high, LineChord& part) {
     if (v == 0)
         return low <= p && p <= high;
     const double t = (low - p) / v, u = (high - p) / v;
@@ -97,7 +97,7 @@ bool keep_between(double p, double v, double low, double high, LinePart& part) {
 
 /// Keeps the part of a line where x^2 + y^2 <= k^2 w^2, with w the distance below the apex. The part with
 /// a negative w is cut off elsewhere.
-bool keep_in_cone(const Vec3& p, const Vec3& v, double height, double slope, LinePart& part) {
+bool keep_in_cone(const Vec3& p, const Vec3& v, double height, double slope, LineChord& part) {
     const double w = height - p.z, sq = slope * slope;
     const double a = v.x * v.x + v.y * v.y - sq * v.z * v.z,
                  b = v.x * p.x + v.y * p.y + sq * v.z * w, c = p.x * p.x + p.y * p.y - sq * w * w;
@@ -154,14 +154,14 @@ CurvedSide side_towards(const SupportShape& solid, const Vec3& direction) {
     return -d.z >= cosine_of_side ? disc_of(solid, -1, d) : line_of(solid, d);
 }
 
-std::optional<LinePart> part_inside(const SupportShape& solid, const Vec3& from,
-                                    const Vec3& along) {
+std::optional<LineChord> part_inside(const SupportShape& solid, const Vec3& from,
+                                     const Vec3& along) {
     const auto local = [&](const Vec3& v) {
         return Vec3{dot(solid.axis[0], v), dot(solid.axis[1], v), dot(solid.axis[2], v)};
     };
     const auto& [a, b, c] = solid.half;
     Vec3 p = local(from), v = local(along);
-    LinePart part{-HUGE_VAL, HUGE_VAL};
+    LineChord part{-HUGE_VAL, HUGE_VAL};
     bool is_inside = true;
     if (solid.kind == CoreKind::ellipsoid) {
         p = {p.x / a, p.y / b, p.z / c}, v = {v.x / a, v.y / b, v.z / c};

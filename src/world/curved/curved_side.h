@@ -43,7 +43,7 @@ bool has_curved_side(const SupportShape& solid);
 CurvedSide side_towards(const SupportShape& solid, const Vec3& direction);
 
 /// The part of a line inside a solid.
-struct LinePart {
+struct LineChord {
     double begin = 0, end = 0; ///< distances along the line
 };
 
@@ -51,6 +51,7 @@ struct LinePart {
 ///
 /// In          has_curved_side(solid). from: relative to the solid's centre. along: of unit length.
 /// Accuracy    a few roundings, over the cosine between the line and the solid's normal.
-std::optional<LinePart> part_inside(const SupportShape& solid, const Vec3& from, const Vec3& along);
+std::optional<LineChord> part_inside(const SupportShape& solid, const Vec3& from,
+                                     const Vec3& along);
 
 } // namespace abut
