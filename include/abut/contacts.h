@@ -21,13 +21,14 @@ struct ContactPoint {
     double depth = 0;          ///< along the normal; negative: a gap, at most the margin
     std::uint64_t feature = 0; ///< names the two features that make the point; stays while they do
     /// Of models and deformables: the triangle of the contact. The body's point lies on it, to rounding; a
-    /// capsule's end, and the one point of a cylinder, cone or ellipsoid, may lie beside it. Of several
+    /// capsule's end, and the point of a cylinder, cone or ellipsoid that is deep in the model, may lie beside
+    /// it. Of several
     /// triangles that hold the point, motion may change which one it is. Of other bodies 0.
     std::uint32_t triangle_a = 0, triangle_b = 0;
 };
 
 /// A region where two bodies are in contact. The points are the corners of that region, without
-/// those that four others represent.
+/// those that four others represent. The region of a disc has 16 corners on its rim.
 struct ContactManifold {
     BodyId a, b;              ///< a.index < b.index
     Vec3 normal;              ///< unit vector from a to b
