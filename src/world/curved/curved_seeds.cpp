@@ -324,11 +324,12 @@ private:
             return dot(p - edge.from, way) / length_sq(way);
         };
         const auto [low, high] =
-            std::minmax({share_of(side.corners[0].at), share_of(side.corners[1].at)});
+            std::minmax({share_of(side.corners.front().at), share_of(side.corners.back().at)});
         if (low > 1 || high < 0)
             return;
-        for (const std::size_t k : {0U, 1U}) {
-            const CurvedSide::Corner &corner = side.corners[k], &other = side.corners[1 - k];
+        for (const CurvedSide::Corner& corner : side.corners) {
+            const bool is_first = &corner == &side.corners.front();
+            const Vec3 other = (is_first ? side.corners.back() : side.corners.front()).at;
             const std::uint64_t name =
                 feature_name(FeatureKind::edges, corner.vertex, number_of(edge));
             // A line through an end leaves the solid somewhere by rounding.
@@ -341,7 +342,7 @@ private:
                 found_.places.push_back({foot, foot - depth * up, depth, name, triangle});
                 continue;
             }
-            const double inner = share_of(corner.at + kInwards * (other.at - corner.at));
+            const double inner = share_of(corner.at + kInwards * (other - corner.at));
             add_place_over(edge.from + std::clamp(inner, 0.0, 1.0) * way, side, frame, name,
                            triangle);
         }
