@@ -1,6 +1,8 @@
 #include "world/curved/curved_seeds.h"
 
 #include "convex/support/support_gap.h"
+#include "geometry/point_triangle_distance.h"
+#include "world/curved/edge_under_side.h"
 #include "world/solids/contact_candidate.h"
 
 #include <algorithm>
@@ -22,16 +24,6 @@ std::uint32_t number_of(const NearEdge& edge) {
     key *= 0x9E3779B97F4A7C15U;
     return static_cast<std::uint32_t>(key >> 33U);
 }
-
-double across(double ax, double ay, double bx, double by) {
-    return ax * by - ay * bx;
-}
-
-/// A part of an edge, by parameters from 0 to 1, and the edges of the polygon at its ends.
-struct EdgePart {
-    double begin = 0, end = 1;
-    std::optional<std::uint32_t> begin_edge, end_edge;
-};
 
 /// Finds the seeds of one pair.
 class SeedSearch {
@@ -87,6 +79,8 @@ private:
                     is_over = is_over || corner.vertex == lowest.vertex;
                     break;
                 }
+        if (!is_over && !is_flat)
+            is_over = add_beside_hollow(lowest, plane, up);
         const bool is_deep = deepest > bounds_.rounding;
         if ((!is_over && !is_flat) || (is_deep && !meets(plane))) {
             found_.places.resize(begin_);
@@ -98,6 +92,41 @@ private:
                  patch_.triangles()[edge.triangles[1]].plane == first.plane))
                 add_border(edge, first, side, frame);
         end_seed(up, first.body);
+    }
+
+    /// Adds the place of a face that is nearest to the foot of the lowest corner, if it lies on an edge beside a
+    /// hollow: the face behind that edge keeps the solid from leaving over it. Returns whether it does.
+    bool add_beside_hollow(const CurvedSide::Corner& lowest, std::span<const std::uint32_t> plane,
+                           const Vec3& up) {
+        const NearTriangle* face = nullptr;
+        NearestOnTriangle nearest;
+        nearest.distance_sq = HUGE_VAL;
+        double depth = 0;
+        for (const std::uint32_t i : plane) {
+            const NearTriangle& t = patch_.triangles()[i];
+            const double here = dot(up, t.corners[0] - lowest.at);
+            const NearestOnTriangle on = nearest_on_triangle(lowest.at + here * up, t.corners);
+            if (on.distance_sq < nearest.distance_sq)
+                nearest = on, face = &t, depth = here;
+        }
+        const double reach = std::abs(depth) + bounds_.margin + bounds_.rounding;
+        const auto is_there = [&](const NearEdge& edge) {
+            return !edge.is_border && !edge.is_convex &&
+                   (patch_.triangles()[edge.triangles[0]].plane == face->plane ||
+                    patch_.triangles()[edge.triangles[1]].plane == face->plane) &&
+                   nearest_on_triangle(nearest.point, {edge.from, edge.to, edge.to}).distance_sq <=
+                       bounds_.rounding * bounds_.rounding;
+        };
+        if (nearest.distance_sq > reach * reach ||
+            std::none_of(patch_.edges().begin(), patch_.edges().end(), is_there))
+            return false;
+        const auto inside = part_inside(solid_, nearest.point, up);
+        if (!inside)
+            return false;
+        found_.places.push_back({nearest.point, nearest.point + inside->begin * up, -inside->begin,
+                                 feature_name(FeatureKind::vertex_of_a, lowest.vertex, 0),
+                                 face->triangle});
+        return true;
     }
 
     /// Whether the solid meets one of some triangles. What lies over its lowest corner may lie above the solid.
@@ -137,57 +166,6 @@ private:
             add_place_over(edge.from + share * (edge.to - edge.from), side, frame, name,
                            face.triangle);
         }
-    }
-
-    /// The part of an edge that lies under a side of the solid, seen along the frame's normal. None of a point.
-    [[nodiscard]] std::optional<EdgePart> part_under(const NearEdge& edge, const CurvedSide& side,
-                                                     const ContactFrame& frame) const {
-        const Vec3 p = frame.coordinates(edge.from), q = frame.coordinates(edge.to);
-        EdgePart part;
-        if (side.corners.size() == 2)
-            return part_on_line(p, q, side, frame);
-        if (!side.is_disc())
-            return std::nullopt;
-        // Along the normal into the solid, the polygon runs clockwise.
-        for (std::size_t i = 0; i < side.corners.size(); ++i) {
-            const CurvedSide::Corner &from = side.corners[i],
-                                     &to = side.corners[(i + 1) % side.corners.size()];
-            const Vec3 a = frame.coordinates(from.at), b = frame.coordinates(to.at);
-            const double at_p = -across(b.x - a.x, b.y - a.y, p.x - a.x, p.y - a.y),
-                         at_q = -across(b.x - a.x, b.y - a.y, q.x - a.x, q.y - a.y);
-            if (at_p < 0 && at_q < 0)
-                return std::nullopt;
-            if (at_p >= 0 && at_q >= 0)
-                continue;
-            const double t = at_p / (at_p - at_q);
-            if (at_p < 0 && t > part.begin)
-                part.begin = t, part.begin_edge = from.edge;
-            if (at_q < 0 && t < part.end)
-                part.end = t, part.end_edge = from.edge;
-        }
-        return part.begin <= part.end ? std::optional(part) : std::nullopt;
-    }
-
-    /// The place of an edge under a line of the solid; both ends of a part if they are parallel.
-    [[nodiscard]] std::optional<EdgePart> part_on_line(const Vec3& p, const Vec3& q,
-                                                       const CurvedSide& side,
-                                                       const ContactFrame& frame) const {
-        const Vec3 a = frame.coordinates(side.corners[0].at),
-                   b = frame.coordinates(side.corners[1].at);
-        const double way_x = b.x - a.x, way_y = b.y - a.y, edge_x = q.x - p.x, edge_y = q.y - p.y;
-        const double turn = across(way_x, way_y, edge_x, edge_y);
-        const double sizes = std::hypot(way_x, way_y) * std::hypot(edge_x, edge_y);
-        constexpr double kParallel = 0.01;
-        if (std::abs(turn) <= kParallel * sizes)
-            return std::nullopt;
-        const double on_line = across(p.x - a.x, p.y - a.y, edge_x, edge_y) / turn,
-                     on_edge = across(p.x - a.x, p.y - a.y, way_x, way_y) / turn;
-        if (!(on_line >= 0 && on_line <= 1 && on_edge >= 0 && on_edge <= 1))
-            return std::nullopt;
-        EdgePart part;
-        part.begin = part.end = on_edge;
-        part.begin_edge = part.end_edge = side.corners[0].edge;
-        return part;
     }
 
     /// Adds a place of the surface under the solid's side.

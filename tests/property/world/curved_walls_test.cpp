@@ -55,12 +55,13 @@ Mesh hollow_of(double right, double left, int cells) {
     });
 }
 
-/// Moves a body so that it is as deep in both slopes.
-void place_in_hollow(BodyInHollow& body, const Vec3& n, const Vec3& m, double depth) {
+/// Moves a body so that it is as deep in both slopes as given.
+void place_in_hollow(BodyInHollow& body, const Vec3& n, const Vec3& m, double depth,
+                     double depth_in_left) {
     body.place = {0, body.place.y, 0};
     const Pose at_origin{{}, body.rotation};
     const double p = depth_below(n, {}, body.shape, at_origin) - depth,
-                 q = depth_below(m, {}, body.shape, at_origin) - depth;
+                 q = depth_below(m, {}, body.shape, at_origin) - depth_in_left;
     const double det = n.x * m.z - n.z * m.x; // n . place = p, m . place = q
     body.place.x = (p * m.z - n.z * q) / det, body.place.z = (n.x * q - p * m.x) / det;
 }
@@ -166,7 +167,7 @@ TEST(CurvedWalls, AHollowHoldsABodyOnBothSides) {
                          std::to_string(right / kDegree) + " left " +
                          std::to_string(left / kDegree));
             body.place.y = random.uniform(-1, 1);
-            place_in_hollow(body, n, m, depth);
+            place_in_hollow(body, n, m, depth, depth);
             if (!touches_both(body, n, m, depth)) {
                 ++left_out;
                 continue;
@@ -198,6 +199,37 @@ TEST(CurvedWalls, TheFoundCases) {
         for (const ContactManifold& m : found)
             count += m.count;
         EXPECT_EQ(count, points);
+    }
+}
+
+/// A disc that slides down one slope meets the other one with its rim, right in the line where they meet.
+TEST(CurvedWalls, ADiscThatSlidesDownOneWallIsStoppedByTheOther) {
+    Random random(20261503);
+    for (int round = 0; round < many(100); ++round) {
+        const double left = random.uniform(20, 60) * kDegree,
+                     right = random.uniform(20, 60) * kDegree;
+        const Vec3 n = normal_of_slope(right, 1), m = normal_of_slope(left, -1);
+        Hollow hollow{hollow_of(right, left, random.integer(1, 8)), pose_somewhere(random)};
+        hollow.margin = 0.01, hollow.body_first = random.chance(0.5);
+        BodyInHollow body{"", Cylinder{{{0, 0, 0}, {0, 0, 0.4}}, 0.2}};
+        body.rotation = {std::cos(left / 2), 0, std::sin(left / 2), 0};
+        const double e = 0.002, in_left = 1e-5;
+        place_in_hollow(body, n, m, e, in_left);
+        SCOPED_TRACE("round " + std::to_string(round));
+        const auto found = contacts_in(hollow, body);
+        ASSERT_EQ(found.size(), 2U);
+        const Vec3 way = pull_back(Transform(hollow.pose),
+                                   hollow.body_first ? -found[0].normal : found[0].normal);
+        const bool right_first = length(way - n) < length(way - m);
+        const ContactManifold &of_right = found[right_first ? 0 : 1],
+                              &of_left = found[right_first ? 1 : 0];
+        EXPECT_NEAR(of_left.points[0].depth, in_left, 1e-8);
+        EXPECT_GE(of_left.count, 3U);
+        // The rim reaches beyond the line by at most the depth in the left wall and its share of the other.
+        EXPECT_LE(of_right.points[0].depth, e + 1e-9);
+        EXPECT_GE(of_right.points[0].depth, e - 20 * in_left - e * std::abs(dot(n, m)));
+        if (HasFailure())
+            return;
     }
 }
 
@@ -239,7 +271,7 @@ TEST(CurvedWalls, ACutInABlockHoldsABodyOnBothSides) {
             BodyInHollow body{"", Cylinder{{{0, -0.4, 0}, {0, 0.4, 0}}, r}};
             if (!is_cylinder)
                 body.shape = Ellipsoid{{}, {r, 0.4, r}};
-            place_in_hollow(body, n, m, e);
+            place_in_hollow(body, n, m, e, e);
             body.place.z -= depth_of_cut;
             expect_walls(contacts_in(hollow, body), hollow, body, {n, m}, e);
             ++in_cut;
