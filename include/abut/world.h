@@ -285,7 +285,10 @@ public:
     ///             model, clear of its surface, is apart. A half-space with a body that has corners: up to
     ///             four of these. A model or deformable with a capsule: the capsule's ends, and
     ///             the point of `penetration` if that is deeper, or a place between the ends that
-    ///             carries it. For all others that one point.
+    ///             carries it. A cylinder, cone or ellipsoid with a convex body: as convex bodies, a disc
+    ///             as a polygon of 16 corners. With a model or deformable: the depth below each
+    ///             face, edge or vertex that it touches, to rounding; that of `penetration` if its
+    ///             centre is behind the nearest face. For all others the point of `penetration`.
     /// Errors      Error{bad_argument} if the margin is negative or not finite.
     /// Cost        with a margin, a second broad phase, which is kept from step to step. Contacts
     ///             of a model or deformable are kept while both bodies stay in place.
