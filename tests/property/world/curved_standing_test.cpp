@@ -242,6 +242,34 @@ TEST(CurvedStanding, ADiscThatReachesOverASmallBoxStandsOnTheCornersOfBoth) {
     }
 }
 
+TEST(CurvedStanding, TheMassOfACylinderAndAConeIsThatOfAFineMesh) {
+    constexpr std::uint32_t kSides = 256;
+    constexpr double kRadius = 0.3, kHeight = 0.8;
+    for (const bool is_cone : {false, true}) {
+        Mesh mesh{{{0, 0, 0}, {0, 0, kHeight}}, {}};
+        for (std::uint32_t i = 0; i < kSides; ++i) {
+            const double angle = 2 * std::numbers::pi * i / kSides;
+            const double x = kRadius * std::cos(angle), y = kRadius * std::sin(angle);
+            mesh.positions.push_back({x, y, 0});
+            mesh.positions.push_back({is_cone ? 0 : x, is_cone ? 0 : y, kHeight});
+            const std::uint32_t a = 2 + 2 * i, b = 2 + 2 * ((i + 1) % kSides);
+            mesh.triangles.push_back({0, b, a});
+            mesh.triangles.push_back({a, b, b + 1});
+            mesh.triangles.push_back({a, b + 1, a + 1});
+            mesh.triangles.push_back({1, a + 1, b + 1});
+        }
+        const simulation::Mass fine = simulation::mass_of(mesh, 700);
+        const simulation::Mass mass =
+            is_cone ? simulation::mass_of(Cone{{0, 0, kHeight}, {0, 0, 0}, kRadius}, 700)
+                    : simulation::mass_of(Cylinder{{{0, 0, 0}, {0, 0, kHeight}}, kRadius}, 700);
+        EXPECT_NEAR(mass.mass, fine.mass, 1e-3 * fine.mass);
+        EXPECT_LT(length(mass.centre - fine.centre), 1e-9);
+        for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
+            EXPECT_LT(length(mass.inertia * axis - fine.inertia * axis),
+                      1e-3 * length(fine.inertia * axis));
+    }
+}
+
 /// A barrel stands, and a log with some rolling resistance lies still.
 TEST(CurvedStanding, BarrelsConesAndLogsRest) {
     for (const Ground& ground : grounds()) {
