@@ -7,7 +7,6 @@
 #include "geometry/triangle_triangle_distance.h"
 #include "math/transform.h"
 #include "math/vector.h"
-#include "rigid/manifold/region_names.h"
 #include "rigid/manifold/surface_manifolds.h"
 #include "world/contacts/capsule_contacts.h"
 #include "world/contacts/convex_faces.h"
@@ -15,6 +14,7 @@
 #include "world/contacts/rounded_on_surface.h"
 #include "world/contacts/solid_contacts.h"
 #include "world/contacts/solid_regions.h"
+#include "world/contacts/walls.h"
 #include "world/narrow_phase/contact_rounding.h"
 #include "world/narrow_phase/offset_surface.h"
 
@@ -363,34 +363,6 @@ void append_region_contacts(const BodiesInContact& bodies, double margin, PairWa
             point.triangle_b = is_surface(b.shape) ? point.triangle_b : 0;
         }
     }
-}
-
-/// Appends the walls that a ball or a capsule touches. They keep the numbers of those of the last query
-/// that are nearest.
-void append_walls(std::span<const ContactManifold> walls, RegionsOfPair& last,
-                  std::vector<ContactManifold>& manifolds) {
-    if (walls.empty())
-        last.manifolds.clear();
-    if (walls.size() < 2 && last.manifolds.empty()) {
-        manifolds.insert(manifolds.end(), walls.begin(), walls.end());
-        return;
-    }
-    static thread_local std::vector<ModelManifold> memory;
-    Borrowed<std::vector<ModelManifold>> borrowed(memory);
-    std::vector<ModelManifold>& regions = *borrowed;
-    regions.clear();
-    for (const ContactManifold& wall : walls) {
-        ModelManifold& region = regions.emplace_back();
-        region.normal = wall.normal, region.count = wall.count, region.points = wall.points;
-    }
-    name_regions(regions, &last.manifolds);
-    for (const ModelManifold& region : regions) {
-        ContactManifold& manifold = manifolds.emplace_back();
-        manifold.normal = region.normal, manifold.region = region.region;
-        manifold.count = region.count, manifold.points = region.points;
-    }
-    last.manifolds.assign(regions.begin(), regions.end());
-    last.placements = {};
 }
 
 /// The contacts of a ball or a capsule and a surface, where triangles near its core tell them. Returns
