@@ -20,7 +20,7 @@
 namespace abut::test {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kDegreeOfAngle = std::numbers::pi / 180;
 
 /// Two planes that meet in the line x = z = 0 and rise at an angle on both sides, in cells.
 Mesh valley_of(double angle, int cells) {
@@ -30,7 +30,7 @@ Mesh valley_of(double angle, int cells) {
     });
 }
 
-Pose pose_somewhere(Random& random) {
+Pose pose_near_or_far(Random& random) {
     return random.pose(random.chance(0.3) ? 1e4 : 1);
 }
 
@@ -62,12 +62,13 @@ TEST(RoundedWalls, AValleyOfAnyAngleHoldsABallAndACapsuleOnBothSides) {
     Random random(20261401);
     std::cout << "seed 20261401\n";
     for (int round = 0; round < many(300); ++round) {
-        const double angle = random.uniform(3, 75) * kDegree, radius = random.uniform(0.1, 0.5);
+        const double angle = random.uniform(3, 75) * kDegreeOfAngle,
+                     radius = random.uniform(0.1, 0.5);
         const int cells = random.integer(1, 12);
         const double depth = random.chance(0.3) ? 0 : radius * random.uniform(-0.02, 0.02);
         const double margin = random.uniform(0.021, 0.1) * radius;
         const Vec3 centre{0, random.uniform(-1, 1), (radius - depth) / std::cos(angle)};
-        const Pose pose = pose_somewhere(random);
+        const Pose pose = pose_near_or_far(random);
         const bool first = random.chance(0.5);
         SCOPED_TRACE("round " + std::to_string(round) + " angle " + std::to_string(angle) +
                      " depth " + std::to_string(depth / radius) + " margin " +
@@ -104,7 +105,7 @@ TEST(RoundedWalls, ACornerOfThreeWallsHoldsABall) {
     });
     Random random(20261402);
     for (int round = 0; round < many(100); ++round) {
-        const Pose pose = pose_somewhere(random);
+        const Pose pose = pose_near_or_far(random);
         const double radius = random.uniform(0.1, 0.9), overlap = 0.01 * radius;
         const double at = radius - overlap;
         const auto found = walls_of(room, Sphere{{}, radius}, {at, at, at}, pose,
@@ -196,7 +197,7 @@ TEST(RoundedWalls, WhatEachWallHoldsLiesBeyondTheBody) {
 }
 
 TEST(RoundedWalls, AWallKeepsItsNumberWhileABallRollsAlongAValley) {
-    const double angle = 40 * kDegree, radius = 0.3;
+    const double angle = 40 * kDegreeOfAngle, radius = 0.3;
     World world;
     const Mesh mesh = valley_of(angle, 10);
     world.add(Model(mesh), {});
