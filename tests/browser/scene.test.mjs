@@ -63,6 +63,39 @@ describe('the building in 3D', () => {
     assert.match(await page.textContent('#live'), /^Clash 4 of 10,092: hard/);
   });
 
+  test('the overview holds the whole building in a window of any shape, until the user moves', async () => {
+    /** How far out the outmost corner of the building lies: at most 1 is in the picture. Across and over. */
+    const outmost = () => page.evaluate(() => {
+      const { view } = abutReport.view;
+      view.draw();
+      const sizes = [0, 0];
+      for (let i = 0; i < 8; ++i) {
+        const corner = view.origin.clone().set(...[0, 1, 2].map((k) => view.bounds[k + 3 * (i >> k & 1)])).project(view.camera.camera);
+        sizes[0] = Math.max(sizes[0], Math.abs(corner.x));
+        sizes[1] = Math.max(sizes[1], Math.abs(corner.y));
+      }
+      return sizes;
+    });
+    await open(page);
+    await settled(page, null);
+    for (const [width, height] of [[1400, 900], [800, 600], [420, 800], [1600, 500], [1280, 800]]) {
+      await page.setViewportSize({ width, height });
+      await page.waitForFunction(() => {
+        const { view } = abutReport.view;
+        return view.size[0] === view.host.clientWidth && view.size[1] === view.host.clientHeight;
+      });
+      const sizes = await outmost();
+      assert.ok(Math.max(...sizes) < 1, `${width} x ${height}: ${sizes}`);
+      assert.ok(Math.max(...sizes) > 0.85, `${width} x ${height} wastes room: ${sizes}`);
+    }
+    await page.focus('#stage-host canvas');
+    await page.keyboard.press('+');
+    const { eye } = await inspect(page);
+    await page.setViewportSize({ width: 1000, height: 800 });
+    await page.waitForFunction(() => abutReport.view.view.size[0] === abutReport.view.view.host.clientWidth);
+    assert.deepEqual((await inspect(page)).eye, eye);
+  });
+
   test('keys go on, back, fit, cut, hide and close', async () => {
     await open(page);
     await page.keyboard.press('n');

@@ -1,10 +1,12 @@
 // The camera: orbiting by mouse, touch and keys, and flights to a viewpoint.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { middleOf } from './boxes.js';
 
 const FLIGHT = 650; // milliseconds
 const KEY_STEP = Math.PI / 24;
 export const FIELD_OF_VIEW = 45; // vertical, degrees
+const FILLED = 0.94; // share of the picture's width or height that a whole building fills
 
 export class SceneCamera {
   constructor(canvas, up, radius, redraw) {
@@ -15,12 +17,13 @@ export class SceneCamera {
     this.redraw = redraw;
     this.flight = null;
     this.expected = null; // stands for a flight whose viewpoint is still being found
+    this.moved = false; // by the user, since the last flight
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.minDistance = 0.05;
     this.controls.maxDistance = 12 * radius;
     this.controls.zoomToCursor = true;
     this.controls.addEventListener('change', redraw);
-    this.controls.addEventListener('start', () => this.stay());
+    this.controls.addEventListener('start', () => this.take());
     canvas.addEventListener('keydown', (event) => this.key(event));
   }
 
@@ -42,10 +45,40 @@ export class SceneCamera {
     return this.expected;
   }
 
+  /**
+   * The middle and the distance from which all corners of a box are in the picture, with a margin.
+   *
+   * A corner at (x, y) across the view and z towards the eye is in the picture of an eye at (cx, cy) and
+   * the distance d if |x - cx| <= tan (d - z), and the same for y. So the largest of x + tan z and of
+   * -x + tan z bound cx and d.
+   */
+  placeForBox(box, direction) {
+    const right = new THREE.Vector3().crossVectors(this.up, direction).normalize();
+    const over = new THREE.Vector3().crossVectors(direction, right);
+    const corners = Array.from({ length: 8 }, (_, i) => new THREE.Vector3(...[0, 1, 2].map((k) => box[k + (i >> k & 1) * 3])));
+    const vertical = Math.tan(THREE.MathUtils.degToRad(FIELD_OF_VIEW / 2)) * FILLED;
+    const middle = new THREE.Vector3();
+    let distance = 0;
+    for (const [axis, tan] of [[right, vertical * this.camera.aspect], [over, vertical]]) {
+      const most = Math.max(...corners.map((corner) => corner.dot(axis) + tan * corner.dot(direction)));
+      const least = Math.max(...corners.map((corner) => -corner.dot(axis) + tan * corner.dot(direction)));
+      middle.addScaledVector(axis, (most - least) / 2);
+      distance = Math.max(distance, (most + least) / (2 * tan));
+    }
+    const depth = new THREE.Vector3(...middleOf(box)).dot(direction);
+    return { middle: middle.addScaledVector(direction, depth), distance: distance - depth };
+  }
+
   /** Ends the flight, and the wait for one. */
   stay() {
     this.flight = null;
     this.expected = null;
+  }
+
+  /** Says that the user moves the camera. */
+  take() {
+    this.stay();
+    this.moved = true;
   }
 
   get flying() {
@@ -54,8 +87,19 @@ export class SceneCamera {
 
   /** Flies to where the ball about `middle` is seen from `direction`. */
   flyTo(middle, radius, direction, atOnce) {
+    this.fly(middle, this.distanceFor(radius), direction, atOnce);
+  }
+
+  /** Flies to where the whole box is seen from `direction`. */
+  flyToBox(box, direction, atOnce) {
+    const { middle, distance } = this.placeForBox(box, direction);
+    this.fly(middle, distance, direction, atOnce);
+  }
+
+  fly(middle, distance, direction, atOnce) {
     this.stay();
-    const eye = middle.clone().addScaledVector(direction, this.distanceFor(radius));
+    this.moved = false;
+    const eye = middle.clone().addScaledVector(direction, distance);
     if (atOnce || matchMedia('(prefers-reduced-motion: reduce)').matches) {
       this.set(eye, middle);
       return;
@@ -126,7 +170,7 @@ export class SceneCamera {
   }
 
   orbit(around, over) {
-    this.stay();
+    this.take();
     const offset = this.camera.position.clone().sub(this.controls.target);
     const toY = new THREE.Quaternion().setFromUnitVectors(this.up, new THREE.Vector3(0, 1, 0));
     const at = new THREE.Spherical().setFromVector3(offset.applyQuaternion(toY));
@@ -138,7 +182,7 @@ export class SceneCamera {
   }
 
   zoom(factor) {
-    this.stay();
+    this.take();
     const offset = this.camera.position.clone().sub(this.controls.target).multiplyScalar(factor);
     this.set(this.controls.target.clone().add(offset), this.controls.target.clone());
   }

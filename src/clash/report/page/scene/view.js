@@ -90,6 +90,8 @@ export class BuildingView {
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
     this.camera.resize(width, height);
+    if (this.state.subject === null && !this.camera.moved)
+      this.frame(true); // the whole building fits into the new shape
     this.draw(); // at once, since a resized canvas is empty
   }
 
@@ -198,7 +200,7 @@ export class BuildingView {
   async frame(atOnce = false) {
     const { subject } = this.state;
     if (subject === null) {
-      this.camera.flyTo(new THREE.Vector3(), diagonalOf(this.bounds) * 0.38, this.finder.usual, atOnce);
+      this.camera.flyToBox(this.bounds, this.finder.usual, atOnce);
       return;
     }
     const ticket = this.camera.expectFlight();
