@@ -62,6 +62,16 @@ install(FILES ${PROJECT_BINARY_DIR}/AbutConfig.cmake ${PROJECT_BINARY_DIR}/AbutC
 
 # pkg-config. The files find their prefix by their own place, so an installed folder may be moved.
 file(RELATIVE_PATH ABUT_UP_TO_PREFIX ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+# What the static libraries need is private, for --static, where shared ones are installed beside them. Where
+# there are only static ones, whoever links needs it.
+set(ABUT_PC_PRIVATE " -ltbb -lfmt -lhwy -lqhull_r -lmeshoptimizer -lsqlite3 -lzstd -lmetis -lzip -lpugixml -lstdc++ -lm -lpthread")
+set(ABUT_PC_RENDER_PRIVATE " -lepoxy -lpng")
+if(NOT ABUT_SHARED)
+    set(ABUT_PC_NEEDED "${ABUT_PC_PRIVATE}")
+    set(ABUT_PC_RENDER_NEEDED "${ABUT_PC_RENDER_PRIVATE}")
+    set(ABUT_PC_PRIVATE "")
+    set(ABUT_PC_RENDER_PRIVATE "")
+endif()
 configure_file(cmake/abut.pc.in ${PROJECT_BINARY_DIR}/abut.pc @ONLY)
 configure_file(cmake/abut-render.pc.in ${PROJECT_BINARY_DIR}/abut-render.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/abut.pc ${PROJECT_BINARY_DIR}/abut-render.pc
