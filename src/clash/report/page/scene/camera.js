@@ -7,6 +7,7 @@ const FLIGHT = 650; // milliseconds
 const KEY_STEP = Math.PI / 24;
 export const FIELD_OF_VIEW = 45; // vertical, degrees
 const FILLED = 0.94; // share of the picture's width or height that a whole building fills
+const TOOLBAR = 40; // pixels at the top of the picture that the page's tools cover
 
 export class SceneCamera {
   constructor(canvas, up, radius, redraw) {
@@ -16,6 +17,7 @@ export class SceneCamera {
     this.radius = radius;
     this.redraw = redraw;
     this.flight = null;
+    this.height = Infinity; // pixels
     this.expected = null; // stands for a flight whose viewpoint is still being found
     this.moved = false; // by the user, since the last flight
     this.controls = new OrbitControls(this.camera, canvas);
@@ -28,6 +30,7 @@ export class SceneCamera {
   }
 
   resize(width, height) {
+    this.height = height;
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
   }
@@ -46,27 +49,31 @@ export class SceneCamera {
   }
 
   /**
-   * The middle and the distance from which all corners of a box are in the picture, with a margin.
+   * The middle and the distance from which all corners of a box are in the picture, below the tools and with a
+   * margin.
    *
    * A corner at (x, y) across the view and z towards the eye is in the picture of an eye at (cx, cy) and
-   * the distance d if |x - cx| <= tan (d - z), and the same for y. So the largest of x + tan z and of
-   * -x + tan z bound cx and d.
+   * the distance d if x - cx <= right (d - z) and cx - x <= left (d - z), where right and left are tangents,
+   * and the same for y. So the largest of x + right z and of -x + left z bound cx and d.
    */
   placeForBox(box, direction) {
     const right = new THREE.Vector3().crossVectors(this.up, direction).normalize();
     const over = new THREE.Vector3().crossVectors(direction, right);
-    const corners = Array.from({ length: 8 }, (_, i) => new THREE.Vector3(...[0, 1, 2].map((k) => box[k + (i >> k & 1) * 3])));
-    const vertical = Math.tan(THREE.MathUtils.degToRad(FIELD_OF_VIEW / 2)) * FILLED;
-    const middle = new THREE.Vector3();
-    let distance = 0;
-    for (const [axis, tan] of [[right, vertical * this.camera.aspect], [over, vertical]]) {
-      const most = Math.max(...corners.map((corner) => corner.dot(axis) + tan * corner.dot(direction)));
-      const least = Math.max(...corners.map((corner) => -corner.dot(axis) + tan * corner.dot(direction)));
-      middle.addScaledVector(axis, (most - least) / 2);
-      distance = Math.max(distance, (most + least) / (2 * tan));
-    }
+    const corners = Array.from({ length: 8 }, (_, i) => new THREE.Vector3(...[0, 1, 2].map((k) => box[k + 3 * (i >> k & 1)])));
+    const tan = Math.tan(THREE.MathUtils.degToRad(FIELD_OF_VIEW / 2)) * FILLED;
+    const across = tan * this.camera.aspect;
+    const above = tan * Math.max(0.2, 1 - 2 * TOOLBAR / this.height);
+    const sides = [[right, across, across], [over, above, tan]].map(([axis, upper, lower]) => ({
+      axis, upper, lower,
+      most: Math.max(...corners.map((corner) => corner.dot(axis) + upper * corner.dot(direction))),
+      least: Math.max(...corners.map((corner) => -corner.dot(axis) + lower * corner.dot(direction))),
+    }));
+    const distance = Math.max(...sides.map(({ most, least, upper, lower }) => (most + least) / (upper + lower)));
     const depth = new THREE.Vector3(...middleOf(box)).dot(direction);
-    return { middle: middle.addScaledVector(direction, depth), distance: distance - depth };
+    const middle = direction.clone().multiplyScalar(depth);
+    for (const { axis, most, least, upper, lower } of sides)
+      middle.addScaledVector(axis, (most - least + (lower - upper) * distance) / 2);
+    return { middle, distance: distance - depth };
   }
 
   /** Ends the flight, and the wait for one. */
