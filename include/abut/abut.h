@@ -32,6 +32,7 @@
 #include <abut/motion.h>
 #include <abut/part_query.h>
 #include <abut/penetration.h>
+#include <abut/pose.h>
 #include <abut/progress.h>
 #include <abut/properties.h>
 #include <abut/representatives.h>

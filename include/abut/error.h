@@ -21,6 +21,31 @@ enum class ErrorCode : std::uint8_t {
     interrupted,   ///< the caller asked to stop
 };
 
+/// The name of the enumerator, such as "file_not_found".
+constexpr const char* to_string(ErrorCode code) {
+    switch (code) {
+    case ErrorCode::bad_argument:
+        return "bad_argument";
+    case ErrorCode::file_not_found:
+        return "file_not_found";
+    case ErrorCode::unreadable:
+        return "unreadable";
+    case ErrorCode::malformed:
+        return "malformed";
+    case ErrorCode::unsupported:
+        return "unsupported";
+    case ErrorCode::bad_mesh:
+        return "bad_mesh";
+    case ErrorCode::reader_failed:
+        return "reader_failed";
+    case ErrorCode::cannot_write:
+        return "cannot_write";
+    case ErrorCode::interrupted:
+        return "interrupted";
+    }
+    return "unknown";
+}
+
 /// Bad data, failed input or output, and limits. Numerical outcomes are statuses, never errors.
 ///
 /// `what()` is one line; where a file is at fault it begins with the file's name.

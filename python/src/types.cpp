@@ -1,3 +1,4 @@
+#include <abut/pose.h>
 #include <abut/types.h>
 
 #include "module.h"
@@ -9,13 +10,48 @@ namespace abut::python {
 
 namespace {
 
+/// A function of points or vectors: of one, or of each row.
+template <class Map>
+py::array mapped(const py::object& points, const char* name, const Map& map) {
+    PointArgument argument = to_point_or_points(points, name);
+    if (!argument.many)
+        return from_vec3(map(argument.one));
+    for (Vec3& point : argument.list)
+        point = map(point);
+    return rows<double>(std::move(argument.list));
+}
+
+void add_pose_products(py::class_<Pose>& type) {
+    type.def(
+            "__mul__", [](const Pose& a, const Pose& b) { return a * b; }, py::arg("other"),
+            py::is_operator(),
+            "The pose that applies `other`, then this one. Its quaternion is of unit length.")
+        .def(
+            "inverse", [](const Pose& pose) { return inverse(pose); },
+            "The Pose that undoes this one.")
+        .def(
+            "apply",
+            [](const Pose& pose, const py::object& points) {
+                return mapped(points, "points", [&](const Vec3& p) { return apply(pose, p); });
+            },
+            py::arg("points"),
+            "Where the pose takes points: an array of shape (3,) or (n, 3), as the argument has.")
+        .def(
+            "rotate",
+            [](const Pose& pose, const py::object& directions) {
+                return mapped(directions, "directions",
+                              [&](const Vec3& d) { return rotate(pose, d); });
+            },
+            py::arg("directions"), "As apply, but directions are only rotated.");
+}
+
 void bind_pose(py::module_& module) {
-    py::class_<Pose>(
+    py::class_<Pose> type(
         module, "Pose",
         "Pose(translation=(0, 0, 0), rotation=(1, 0, 0, 0))\n\n"
         "A rigid pose: x_world = R(rotation) x_model + translation. The quaternion (w, x, y, z)\n"
-        "need not be of unit length.")
-        .def(py::init([](const py::object& translation, const py::object& rotation) {
+        "need not be of unit length.");
+    type.def(py::init([](const py::object& translation, const py::object& rotation) {
                  Pose pose;
                  pose.translation = to_vec3(translation, "translation");
                  const auto q = double_array(rotation, "rotation");
@@ -58,6 +94,7 @@ void bind_pose(py::module_& module) {
             return "Pose(translation=" + short_repr(py::cast(pose.translation)) +
                    ", rotation=" + short_repr(to_python(pose.rotation)) + ")";
         });
+    add_pose_products(type);
 }
 
 void bind_box(py::module_& module) {

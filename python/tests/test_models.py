@@ -168,3 +168,18 @@ def test_pickles():
         assert type(again) is type(value) and (value is model or again == value)
     assert np.array_equal(pickle.loads(pickle.dumps(model)).faces, model.faces)
     assert abut.Model.__module__ == "abut" and abut.distance.__module__ == "abut"
+
+
+def test_poses_are_multiplied(rng):
+    a, b = (abut.Pose(rng.normal(size=3), rng.normal(size=4)) for _ in range(2))
+    assert np.allclose((a * b).matrix(), a.matrix() @ b.matrix(), atol=1e-14)
+    assert np.isclose(np.linalg.norm((a * b).rotation), 1)
+    assert np.allclose((a.inverse() * a).matrix(), np.eye(4), atol=1e-14)
+    points = rng.normal(size=(5, 3))
+    assert np.allclose(a.apply(points), points @ a.matrix()[:3, :3].T + a.translation, atol=1e-14)
+    assert np.allclose(a.rotate(points), points @ a.matrix()[:3, :3].T, atol=1e-14)
+    assert a.apply(points[0]).shape == (3,) and np.array_equal(a.apply(points[0]), a.apply(points)[0])
+    with pytest.raises(TypeError):
+        a * 2
+    with pytest.raises(abut.Error, match="quaternion of zero length"):
+        abut.Pose((0, 0, 0), (0, 0, 0, 0)).inverse()
