@@ -3,6 +3,7 @@
 #include <abut/error.h>
 
 #include "io/file/text_scan.h"
+#include "io/file/text_stream.h"
 
 #include <algorithm>
 #include <array>
@@ -42,9 +43,7 @@ public:
         : path_(path), units_(units), assembly_(assembly) {}
 
     void read() {
-        std::ifstream in(path_);
-        if (!in)
-            throw Error(ErrorCode::file_not_found, path_, "cannot be opened");
+        std::ifstream in = open_text(path_);
         for (std::string line; std::getline(in, line);) {
             ++line_;
             if (line_ == 1 && line.starts_with("\xEF\xBB\xBF"))

@@ -17,10 +17,12 @@ inline void require(bool condition, const std::string& message) {
         throw Error(ErrorCode::bad_argument, message);
 }
 
-/// Errors      Error{bad_argument} if the value is negative or NaN: "WHAT must not be negative".
+/// Errors      Error{bad_argument} if the value is negative, "WHAT must not be negative", or NaN, "WHAT
+///             is not a number".
 inline void require_not_negative(double value, const char* what) {
     if (!(value >= 0))
-        throw Error(ErrorCode::bad_argument, std::string(what) + " must not be negative");
+        throw Error(ErrorCode::bad_argument,
+                    what + std::string(value < 0 ? " must not be negative" : " is not a number"));
 }
 
 } // namespace abut

@@ -65,9 +65,11 @@ std::optional<ElementaryKind> kind_of(const QueryArguments& arguments) {
 
 /// Reads a list of true and false (or 1 and 0), one for each query of all files in their order.
 std::vector<bool> read_truth(const std::string& file) {
+    if (!std::filesystem::exists(file))
+        throw Error(ErrorCode::file_not_found, file, "no such file");
     std::ifstream stream(file);
     if (!stream)
-        throw Error(ErrorCode::file_not_found, file, "cannot be opened");
+        throw Error(ErrorCode::unreadable, file, "cannot be read");
     const auto json = nlohmann::json::parse(stream, nullptr, false);
     if (!json.is_array())
         throw Error(ErrorCode::malformed, file, "is not a JSON list");

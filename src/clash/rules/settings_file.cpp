@@ -2,6 +2,8 @@
 
 #include <abut/error.h>
 
+#include "io/file/text_stream.h"
+
 #include <fstream>
 #include <sstream>
 
@@ -87,9 +89,7 @@ Json parse_toml(std::string_view text, const std::string& file) {
 }
 
 Json read_settings(const std::string& path) {
-    std::ifstream in(path);
-    if (!in)
-        throw Error(ErrorCode::file_not_found, path, "cannot be opened");
+    std::ifstream in = open_text(path);
     std::ostringstream text;
     text << in.rdbuf();
     if (in.bad())

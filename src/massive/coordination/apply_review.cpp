@@ -7,6 +7,7 @@
 #include "clash/report/group_json.h"
 #include "clash/report/topic_document.h"
 #include "core/uuid.h"
+#include "io/file/text_stream.h"
 
 #include <algorithm>
 #include <fstream>
@@ -24,9 +25,7 @@ using nlohmann::json;
 }
 
 json read_review_file(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    if (!in)
-        throw Error(ErrorCode::file_not_found, path, "cannot be opened");
+    std::ifstream in = open_text(path);
     const std::string text{std::istreambuf_iterator<char>(in), {}};
     try {
         return json::parse(text);

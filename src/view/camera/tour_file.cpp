@@ -2,6 +2,7 @@
 #include <abut/tour.h>
 
 #include "core/atomic_file.h"
+#include "io/file/text_stream.h"
 #include "view/camera/camera_frame.h"
 #include "view/camera/tour_point.h"
 
@@ -69,9 +70,7 @@ private:
     }
 
     [[nodiscard]] TourJson parse() const {
-        std::ifstream in(path_);
-        if (!in)
-            throw Error(ErrorCode::file_not_found, path_, "cannot be opened");
+        std::ifstream in = open_text(path_);
         std::ostringstream text;
         text << in.rdbuf();
         if (in.bad())

@@ -86,6 +86,7 @@ std::array<Vec3, 3> axes_along(const Vec3& way, double length_of_way) {
 CurvedShape round_shape(CoreKind kind, const Segment& axis, double radius) {
     require_point(axis.a, "an end of the axis");
     require_point(axis.b, "an end of the axis");
+    require(!std::isnan(radius), "radius is not a number");
     require(radius >= 0 && radius <= kLargestCoordinate,
             "radius must not be negative, nor beyond 1e18");
     CurvedShape shape;
@@ -120,6 +121,7 @@ BodyShape shape_of(const Convex& convex) {
 }
 
 BodyShape shape_of(const Sphere& sphere) {
+    require(!std::isnan(sphere.radius), "radius of the sphere is not a number");
     require_sphere(sphere);
     RoundedBox box;
     box.centre = sphere.centre, box.radius = sphere.radius;
@@ -128,6 +130,7 @@ BodyShape shape_of(const Sphere& sphere) {
 
 BodyShape shape_of(const Capsule& capsule) {
     require_segment(capsule.axis);
+    require(!std::isnan(capsule.radius), "radius of the capsule is not a number");
     require_sphere({capsule.axis.a, capsule.radius});
     RoundedBox box;
     box.centre = 0.5 * capsule.axis.a + 0.5 * capsule.axis.b, box.radius = capsule.radius;
@@ -163,9 +166,11 @@ BodyShape shape_of(const Cone& cone) {
 BodyShape shape_of(const Ellipsoid& ellipsoid) {
     require_point(ellipsoid.centre, "centre of the ellipsoid");
     const auto& [a, b, c] = ellipsoid.semi_axes;
-    for (const double semi_axis : {a, b, c})
+    for (const double semi_axis : {a, b, c}) {
+        require(!std::isnan(semi_axis), "a semi-axis of the ellipsoid is not a number");
         require(semi_axis >= 0 && semi_axis <= kLargestCoordinate,
                 "a semi-axis of the ellipsoid must not be negative, nor beyond 1e18");
+    }
     CurvedShape shape;
     shape.solid.kind = CoreKind::ellipsoid;
     shape.solid.centre = ellipsoid.centre;

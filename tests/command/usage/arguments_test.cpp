@@ -43,6 +43,7 @@ TEST(Arguments, BadUsageIsRefusedInOneLine) {
         {{"clash", box, "--threads", "two"}, "--threads"},
         {{"clash", box, "--fail-on", "hard,soft"}, "soft"},
         {{"clash", box, "--fail-on", ""}, "--fail-on"},
+        {{"clash", box, "--rules", out + ".json"}, out + ".json: no such file"},
         {{"clash", box, box}, "given twice"},
         {{"collide", box}, "B"},
         {{"collide", box, box, box}, "expected"},
