@@ -35,7 +35,7 @@ public:
     void write(const StoreClashReport& found, const std::optional<Store>& store,
                const Progress& progress, std::vector<std::string>& warnings);
 
-    [[nodiscard]] std::string path() const { return outputs_->path(name_); }
+    [[nodiscard]] std::string path() const { return arguments_.out; }
     [[nodiscard]] std::size_t topics() const { return topics_; }
 
 private:

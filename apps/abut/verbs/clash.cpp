@@ -111,7 +111,8 @@ bool rules_have_clearances(const ClashOptions& options) {
 
 std::string text_of(const StoreClashReport& found, const ClashOptions& options, bool from_store,
                     const std::optional<std::vector<std::uint32_t>>& problems,
-                    const std::optional<OutputFiles>& outputs) {
+                    const std::optional<OutputFiles>& outputs,
+                    const std::optional<BcfOutput>& bcf) {
     std::string text = summary(found.report, found.models, rules_have_clearances(options));
     if (from_store)
         text += out_of_core_summary(found.counters);
@@ -121,16 +122,20 @@ std::string text_of(const StoreClashReport& found, const ClashOptions& options, 
         text += fmt::format("\nreport      {}, .json, .csv\n", shown(outputs->path("report.html")));
     else if (!found.report.clashes.empty())
         text += "\nlist        --out FOLDER writes all of them: a page, JSON and CSV\n";
+    if (bcf)
+        text += fmt::format("{}bcf         {}: {} {}\n", outputs ? "" : "\n", shown(bcf->path()),
+                            grouped(bcf->topics()), bcf->topics() == 1 ? "topic" : "topics");
     return text;
 }
 
 void print_result(const StoreClashReport& found, const ClashOptions& options, bool from_store,
                   const std::optional<std::vector<std::uint32_t>>& problems,
-                  const std::optional<OutputFiles>& outputs, const CommonOptions& common) {
+                  const std::optional<OutputFiles>& outputs, const std::optional<BcfOutput>& bcf,
+                  const CommonOptions& common) {
     if (common.json)
         print_json(from_store ? abut::to_json(found) : abut::to_json(found.report, found.models));
     else if (!common.quiet)
-        print_text(text_of(found, options, from_store, problems, outputs));
+        print_text(text_of(found, options, from_store, problems, outputs, bcf));
 }
 
 /// Runs a helper, that is a process other than the first one that mpirun started. It works and
@@ -267,7 +272,7 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
     std::optional<std::vector<std::uint32_t>> problems;
     if (!fail_on.empty())
         problems = fail_on.problems(report, models);
-    print_result(found, options, from_store, problems, outputs, common);
+    print_result(found, options, from_store, problems, outputs, bcf, common);
     return problems && !problems->empty() ? kExitProblem : kExitDone;
 }
 
@@ -321,7 +326,8 @@ Subcommand add_clash(CLI::App& root, CommonOptions& common) {
     app->add_option(
            "--fail-on", arguments->fail_on,
            "Exit with status 1 if there is a clash of these kinds: hard, touch, contained, "
-           "duplicate, clearance (comma-separated), or any; for a store, one that is not approved, "
+           "duplicate, clearance, undecided (comma-separated), or any; for a store, one that is "
+           "not approved, "
            "or has one of these statuses: new, active, reviewed, approved. Or a condition: "
            "'hard and storey = L2', 'severity = high and group.change = new' "
            "(docs/selecting.md)")

@@ -99,6 +99,9 @@ TEST_F(BcfFiles, HaveATopicForEachGroup) {
         ASSERT_EQ(slab.viewpoints.size(), 1U);
         EXPECT_EQ(slab.viewpoints[0].selection.size(), 7U);
     }
+    const Outcome told = run_abut({"clash", model_, "--bcf", bcf_, "--no-snapshots"});
+    EXPECT_NE(told.out.find("bcf         " + bcf_ + ": 2 topics\n"), std::string::npos) << told.out;
+    std::filesystem::remove(bcf_);
     clash(model_, {"--bcf", bcf_, "--no-snapshots", "--group", "none"});
     EXPECT_EQ(read_bcf(bcf_).topics.size(), 7U);
     expect_refused(run_abut({"clash", model_, "--bcf", bcf_, "--bcf-version", "2.0"}),

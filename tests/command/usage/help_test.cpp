@@ -1,4 +1,5 @@
 /// Help, manual pages and completion name all that exists, and their examples work.
+#include <abut/clash.h>
 #include <abut/store.h>
 
 #include "tests/command/models.h"
@@ -169,6 +170,13 @@ TEST(Help, NamesTheExitStatuses) {
             statuses += line.front() == ' ' ? "" : line.substr(0, line.find(' ')) + " ";
         EXPECT_EQ(statuses, has_problem ? "0 1 2 130 " : "0 2 130 ") << verb;
     }
+}
+
+TEST(Help, OfClashListsAllKindsThatItMayFailOn) {
+    const std::string help = run_abut({"clash", "--help"}).out;
+    const std::string words = help.substr(help.find("--fail-on WORDS"));
+    for (const ClashKind kind : kClashKinds)
+        EXPECT_LT(words.find(to_string(kind)), words.find("docs/selecting.md")) << to_string(kind);
 }
 
 TEST(Help, FitsEightyColumns) {
