@@ -43,6 +43,12 @@ PackedBuilding building_of(const ClashReport& report, const PartNumbers& numbers
                          number_of);
 }
 
+/// Stands at the foot of a page that would have a 3D view if this build of the library had one.
+constexpr std::string_view kNoView =
+    "<p class=\"keys\" id=\"no-view\">No building in 3D: the program that wrote this page was "
+    "built without "
+    "three.js, which tools/install_dependencies build installs.</p>\n";
+
 bool has_geometry(const std::vector<Scene>& models) {
     return std::ranges::any_of(models, [](const Scene& model) { return !model.meshes.empty(); });
 }
@@ -54,8 +60,9 @@ void write_clash_page(const ClashReport& report, const std::vector<Scene>& model
                       const ClashPageOptions& options) {
     const PartNumbers numbers(report, models);
     PackedBuilding building;
-    if (source != nullptr && !report.clashes.empty() && options.building_bytes > 0 &&
-        !report_page::scene.empty())
+    const bool wants_view =
+        source != nullptr && !report.clashes.empty() && options.building_bytes > 0;
+    if (wants_view && !report_page::scene.empty())
         building = building_of(report, numbers, *source, options);
     std::string out;
     std::string_view html = report_page::html;
@@ -72,7 +79,8 @@ void write_clash_page(const ClashReport& report, const std::vector<Scene>& model
         out += "</script>\n<script type=\"module\">";
         out += report_page::scene;
         out += "</script>\n";
-    }
+    } else if (wants_view && report_page::scene.empty())
+        out += kNoView;
     out += html;
     write_file_atomically(path, out);
 }

@@ -3,8 +3,10 @@
 
 #include "clash/report/clash_text.h"
 #include "clash/report/json_lines.h"
+#include "clash/report/report_page.h"
 #include "tests/support/folder.h"
 #include "tests/support/paths.h"
+#include "tests/support/shapes.h"
 
 #include <bit>
 #include <cmath>
@@ -512,6 +514,26 @@ TEST_F(ClashWriters, AFailureLeavesNothingBehind) {
     EXPECT_THROW(write_clash_json(sample.report, sample.models, path("report.json")), Error);
     EXPECT_TRUE(fs::is_directory(folder_ / "report.json"));
     EXPECT_EQ(folder_.files(), 1U);
+}
+
+TEST_F(ClashWriters, APageHasTheViewOrSaysThatItsBuildHasNone) {
+    Scene scene;
+    scene.file = "boxes.glb";
+    scene.meshes = {box_mesh({0, 0, 0}, {2, 2, 2})};
+    scene.parts = {make_part("a", "a", ""), make_part("b", "b", "")};
+    scene.parts[1].world_from_mesh.m[9] = 1;
+    const std::vector<Scene> models{scene};
+    const ClashReport report = find_clashes(models, {});
+    ASSERT_EQ(report.clashes.size(), 1U);
+    const auto has = [&](const ClashPageOptions& options, const std::string& id) {
+        write_clash_html(report, models, path("report.html"), options);
+        return read("report.html").find("id=\"" + id + "\"") != std::string::npos;
+    };
+    EXPECT_EQ(has({}, "no-view"), report_page::scene.empty());
+    EXPECT_EQ(has({}, "building"), !report_page::scene.empty());
+    // Who asks for a page without the view is told nothing.
+    EXPECT_FALSE(has({.building_bytes = 0}, "no-view"));
+    EXPECT_FALSE(has({.building_bytes = 0}, "building"));
 }
 
 TEST_F(ClashWriters, AClashWithoutItsPartIsAnError) {
