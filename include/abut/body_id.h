@@ -8,6 +8,8 @@ namespace abut {
 
 /// Identifies a body of a world. Valid until the body is removed, and never valid again.
 struct BodyId {
+    /// Below World::index_end(), not World::size(): a compound takes an index for each of its pieces, of
+    /// which its id has the first. Another body has the index after this one is removed.
     std::uint32_t index = std::numeric_limits<std::uint32_t>::max();
     std::uint32_t generation = 0; ///< number of earlier bodies with this index
     /// Number of the world among those of the process; 0: not told, so any world takes the id. Two ids

@@ -43,7 +43,7 @@ struct WorldOptions {
     std::function<bool(BodyId a, BodyId b)> filter{};
 };
 
-/// The signed distance of two bodies, world frame. All queries tell the same one of a pair:
+/// The signed distance of two bodies, world frame. `penetration` and `within` tell the same one of a pair:
 ///
 /// - If the bodies share no point, the distance of their nearest points. A model is its surface
 ///   here, also around a body that lies inside it.
@@ -51,6 +51,10 @@ struct WorldOptions {
 ///   bodies is the length of their shortest separating motion. That of a closed model and a ball is
 ///   the radius and, where the centre lies inside, the centre's distance from the surface. For the
 ///   other pairs with a model, World::penetration says which bound of that motion it is.
+///
+/// The first contact point of two convex bodies has this depth and normal too. The contacts of two models,
+/// and of a model with a box or a convex body, have depths along the normals of their regions, which are
+/// no such bound: where the bodies overlap deeply, they may be larger.
 struct BodyGap {
     BodyId a, b;
     double distance = 0; ///< 0 if they touch; a gap below rounding is the least number above 0
@@ -211,7 +215,11 @@ public:
     void refilter();
 
     [[nodiscard]] bool is_valid(BodyId body) const noexcept;
-    [[nodiscard]] std::size_t size() const noexcept;
+    [[nodiscard]] std::size_t size() const noexcept; ///< number of bodies; a compound is one
+    /// One more than the largest BodyId::index that a body has or has had: how many entries an array needs
+    /// that is read by index. It is often more than `size`: each piece of a compound takes an index, and that
+    /// of a removed body is used again only later. It never falls; `add` may raise it.
+    [[nodiscard]] std::size_t index_end() const noexcept;
     /// Errors      of this function and the next: Error{bad_argument} if the id is not valid.
     [[nodiscard]] const Transform& world_from_body(BodyId body) const;
     /// Returns a box that encloses the body. For a model, it encloses the model's own box, rotated.
@@ -277,6 +285,9 @@ public:
     /// where two bodies meet or are near, a normal and up to four points. Sorted by pair, then by
     /// region.
     ///
+    /// In          margin: a simulator's contacts come in time if it is at least the largest speed of two
+    ///             bodies towards each other, times the step. Bodies that are faster pass through
+    ///             thin ones, unless `time_of_impact` stops them.
     /// Accuracy    for convex bodies, spheres, capsules, boxes: the normal is that of BodyGap, and
     ///             the first point has its depth; where more than four corners carry and those of the
     ///             last query stay, to 2^-14 of their extent. A box, a convex body or a closed convex

@@ -166,6 +166,9 @@ bool World::is_valid(BodyId body) const noexcept {
 std::size_t World::size() const noexcept {
     return data_->size();
 }
+std::size_t World::index_end() const noexcept {
+    return data_->bodies().size();
+}
 const Transform& World::world_from_body(BodyId body) const {
     return data_->body(body).world_from_body;
 }

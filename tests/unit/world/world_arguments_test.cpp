@@ -6,6 +6,7 @@
 #include "tests/support/shapes.h"
 
 #include <gtest/gtest.h>
+#include <limits>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -60,6 +61,56 @@ TEST(WorldArguments, IdsOfAnotherWorldAreErrors) {
     ASSERT_EQ(meeting.size(), 1U);
     EXPECT_TRUE(moved.is_valid(meeting[0].a) && moved.is_valid(meeting[0].b));
     EXPECT_FALSE(second.is_valid(meeting[0].a));
+}
+
+TEST(WorldArguments, IndicesEndBehindThePiecesOfCompounds) {
+    World world;
+    EXPECT_EQ(world.index_end(), 0U);
+    const std::vector<Compound::Piece> pieces{
+        {Sphere{{}, 1}}, {Sphere{{3, 0, 0}, 1}}, {Sphere{{6, 0, 0}, 1}}};
+    std::vector<BodyId> ids;
+    for (int i = 0; i < 3; ++i)
+        ids.push_back(world.add(Compound(pieces), {{0, 4.0 * i, 0}}));
+    ids.push_back(world.add(Sphere{{}, 1}, {{0, 20, 0}}));
+    EXPECT_EQ(ids.back().index, 9U);
+    EXPECT_EQ(world.size(), 4U);
+    EXPECT_EQ(world.index_end(), 10U);
+    world.remove(ids[1]);
+    EXPECT_EQ(world.index_end(), 10U);
+    world.update(), world.update();
+    // A place that is free again is taken before the end moves.
+    EXPECT_LT(world.add(Sphere{{}, 1}, {{0, 30, 0}}).index, 10U);
+    EXPECT_EQ(world.index_end(), 10U);
+}
+
+TEST(WorldArguments, ANumberThatIsNoneIsSaidToBeNone) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    World world;
+    const auto ends = Segment{{0, 0, 0}, {0, 0, 1}};
+    EXPECT_EQ(refusal([&] {
+                  world.add(Sphere{{}, nan}, {});
+              }),
+              "body 0: radius of the sphere is not a number");
+    EXPECT_EQ(refusal([&] {
+                  world.add(Capsule{ends, nan}, {});
+              }),
+              "body 0: radius of the capsule is not a number");
+    EXPECT_EQ(refusal([&] {
+                  world.add(Cylinder{ends, nan}, {});
+              }),
+              "body 0: radius is not a number");
+    EXPECT_EQ(refusal([&] {
+                  world.add(Cone{ends.b, ends.a, nan}, {});
+              }),
+              "body 0: radius is not a number");
+    EXPECT_EQ(refusal([&] {
+                  world.add(Ellipsoid{{}, {1, nan, 1}}, {});
+              }),
+              "body 0: a semi-axis of the ellipsoid is not a number");
+    EXPECT_EQ(refusal([&] { (void)world.time_to_collision(nan); }),
+              "limit of a time to collision is not a number");
+    EXPECT_EQ(refusal([&] { (void)world.time_to_collision(-1); }),
+              "limit of a time to collision must not be negative");
 }
 
 TEST(WorldArguments, AMotionStartsWhereItsBodyIs) {
