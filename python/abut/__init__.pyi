@@ -533,6 +533,22 @@ class BodyGap:
     def status(self) -> Status:
         """Status; bound_only: with a model, they go at least so deep into each other; two solids, and models that coincide, may be separated by a shorter motion"""
 
+class BodyId(int):
+    """A body of a World: an int that knows its world.
+
+    It is valid until the body is removed, and then never again. Another World refuses it. In an array it becomes a
+    plain integer, which any World takes; so does a pickle of it.
+
+    world  number of the World among those of the process; 0: not told
+    """
+    world: int
+    @property
+    def index(self) -> int:
+        """int: below World.index_end(), so that an array of that length can be read by it"""
+    @property
+    def generation(self) -> int:
+        """int: number of earlier bodies with this index"""
+
 class BodyImpact:
     """A pair of bodies that meet in a step."""
     dtype: np.dtype[Any]
@@ -3276,6 +3292,13 @@ class Pose:
     def translation(self) -> NDArray[Any]: ...
     @property
     def rotation(self) -> NDArray[Any]: ...
+    def __mul__(self, other: Pose) -> Pose: ...
+    def inverse(self) -> Pose:
+        """The Pose that undoes this one."""
+    def apply(self, points: ArrayLike) -> NDArray[Any]:
+        """Where the pose takes points: an array of shape (3,) or (n, 3), as the argument has."""
+    def rotate(self, directions: ArrayLike) -> NDArray[Any]:
+        """As apply, but directions are only rotated."""
 
 class Probe:
     """A Model, Convex, Sphere, Capsule or Box3 that is moved about in a walk. Make it once."""
@@ -4611,7 +4634,7 @@ class World:
     """Many bodies that move: which of them meet, how near they are, when they may meet. A model is its surface;
     all other shapes are solid. A world keeps its models and deformables alive.
 
-    A body is an int; it is valid until the body is removed, and then never again.
+    A body is a BodyId, an int; it is valid until the body is removed, and then never again.
 
     broad_phase  a BroadPhaseMethod
     filter       function of two bodies, a before b, that tells whether they may meet; called from any thread.
@@ -4622,9 +4645,9 @@ class World:
     for any number of threads, and stop at Ctrl-C; the world is as before then.
     """
     def __init__(self, *, broad_phase: BroadPhaseMethod | str = ..., filter: Callable[[int, int], bool] | None = ...) -> None: ...
-    def add(self, shape: Model | Convex | Sphere | Capsule | Box3 | Cylinder | Cone | Ellipsoid | HalfSpace | Compound | Deformable, pose: _Poses = ..., *, is_static: bool = ..., groups: int = ..., mask: int = ..., user_data: int = ...) -> int:
-        """Adds a Model, Convex, Sphere, Capsule, Box3, Cylinder, Cone, Ellipsoid, HalfSpace, Compound or Deformable;
-        returns its body, an int.
+    def add(self, shape: Model | Convex | Sphere | Capsule | Box3 | Cylinder | Cone | Ellipsoid | HalfSpace | Compound | ConvexPieces | Deformable, pose: _Poses = ..., *, is_static: bool = ..., groups: int = ..., mask: int = ..., user_data: int = ...) -> BodyId:
+        """Adds a Model, Convex, Sphere, Capsule, Box3, Cylinder, Cone, Ellipsoid, HalfSpace, Compound, ConvexPieces or Deformable;
+        returns its body, a BodyId.
 
         pose       rigid: a matrix of shape (4, 4), (translation, quaternion) or a Pose; none for a Deformable
         is_static  static bodies do not meet each other
@@ -4638,7 +4661,8 @@ class World:
     def move(self, body: _Bodies, pose: _Poses) -> None:
         """Moves a body; or many: an array of bodies of shape (n,) and one of poses of shape (n, 4, 4).
 
-        Raises Error (bad_argument) if the body is not valid or is a deformable.
+        Raises Error (bad_argument) if the body is not valid or is a deformable. A BodyId of another World is not valid;
+        the integers of an array do not tell their World.
         """
     def refresh(self, body: int) -> None:
         """Says that a deformable has another step."""
@@ -4654,6 +4678,10 @@ class World:
         """Says that the filter has changed."""
     def is_valid(self, body: int) -> bool: ...
     def __len__(self) -> int: ...
+    def index_end(self) -> int:
+        """How many entries an array needs that is read by BodyId.index: often more than len(), since each piece of a
+        Compound takes an index, and that of a removed body is used again only later.
+        """
     def world_from_body(self, body: int) -> NDArray[Any]:
         """The body's pose, a matrix of shape (4, 4)."""
     def box(self, body: int) -> Box3:
@@ -4686,7 +4714,8 @@ class World:
         point_b.
         """
     def contact_manifolds(self, margin: float = ..., *, progress: _Progress = ...) -> np.recarray[Any, Any]:
-        """The contacts of all pairs at most `margin` apart, a length: for each region a normal and up to four points. A
+        """The contacts of all pairs at most `margin` apart, a length: for each region a normal and up to four points.
+        A simulator's margin is at least the largest speed times the step; time_of_impact finds what is faster. A
         record array of ContactManifold. A body inside a closed model, clear of its surface, is apart from it by the
         distance of that surface. Error (bad_argument) if the margin is negative.
         """

@@ -66,7 +66,7 @@ PARAMETERS = {
     "rules": "Sequence[ClashRule] | _Path", "memory": "int", "keep": "bool", "keep_hierarchies": "bool", "lines": "int",
     "crew": "Crew | None", "scene": "Scene", "model": "Model", "surface": "Deformable", "segment": "Segment",
     "shape": "Sphere | Box3 | OrientedBox | Segment", "probe": "Probe | Model | Convex | Sphere | Capsule | Box3",
-    "body": "int", "motion": "Motion", "motion_a": "Motion | Sequence[Motion] | _Poses", "t": "float", "gap": "float",
+    "body": "int", "other": "Pose", "directions": "ArrayLike", "motion": "Motion", "motion_a": "Motion | Sequence[Motion] | _Poses", "t": "float", "gap": "float",
     "motion_b": "Motion | Sequence[Motion] | _Poses", "motions": "dict[int, Motion] | Iterable[tuple[int, Motion]]",
     "parts": "Sequence[Part]", "paths": "Iterable[_ModelPath] | _ModelPath", "name": "str | None", "note": "str", "unit": "float",
     "models": "Iterable[Scene | _ModelPath] | Scene | _ModelPath", "report": "ClashReport", "file_name": "str",
@@ -100,7 +100,7 @@ OWN_PARAMETERS = {
     "Walk.parts_in_way": {"absolute_error": "float | None"}, "Carry.move_to": {"mode": "CarryMode | str"},
     "Walker.set_mode": {"mode": "WalkerMode | str"}, "Walk.first_hit": {"origin": "Ray | ArrayLike"},
     "build_levels": {"store": "_Path"}, "Probe": {"shape": "Model | Convex | Sphere | Capsule | Box3"}, "World.move": {"body": "_Bodies"},
-    "World.add": {"shape": "Model | Convex | Sphere | Capsule | Box3 | Cylinder | Cone | Ellipsoid | HalfSpace | Compound | Deformable"},
+    "World.add": {"shape": "Model | Convex | Sphere | Capsule | Box3 | Cylinder | Cone | Ellipsoid | HalfSpace | Compound | ConvexPieces | Deformable"},
     "Compound": {"pieces": "Iterable[_RigidShape | tuple[_RigidShape, _OnePose | ArrayLike]] | ConvexPieces"},
     "World.first_hit": {"origin": "Ray | ArrayLike", "filter": "Callable[[int], bool] | None"}, "World.all_hits": {"origin": "Ray | ArrayLike", "filter": "Callable[[int], bool] | None"},
     "World.overlaps": {"shape": "Model | Convex | Sphere | Capsule | Box3 | Cylinder | Cone | Ellipsoid | HalfSpace", "filter": "Callable[[int], bool] | None"},
@@ -224,7 +224,7 @@ RETURNS = {
     "Renderer.visible_samples": "NDArray[np.uint64]", "on_screen": "NDArray[np.float64] | None",
     "World.penetration": "np.recarray[Any, Any]", "World.within": "np.recarray[Any, Any]",
     "World.contact_manifolds": "np.recarray[Any, Any]",
-    "World.first_hit": "BodyRayHit", "World.all_hits": "np.recarray[Any, Any]", "World.overlaps": "NDArray[Any]", "World.sweep": "BodySweepHit",
+    "World.add": "BodyId", "World.first_hit": "BodyRayHit", "World.all_hits": "np.recarray[Any, Any]", "World.overlaps": "NDArray[Any]", "World.sweep": "BodySweepHit",
     "World.time_of_impact": "np.recarray[Any, Any]", "read_elementary_queries": "tuple[NDArray[Any], NDArray[Any], NDArray[Any], NDArray[Any]]",
 }
 PROPERTIES = {
@@ -416,6 +416,10 @@ def class_lines(name, kind):
             body += ["    " + re.sub(r"-> .*: \.\.\.", "-> None: ...", line) for line in lines]
         elif member in ("__len__", "__bool__"):
             body.append(f"    def {member}(self) -> {'int' if member == '__len__' else 'bool'}: ...")
+        elif member == "__mul__":
+            body.append(f"    def __mul__(self, other: {name}) -> {name}: ...")
+        elif type(value) is int and not member.startswith("_"):
+            body.append(f"    {member}: int")
         elif member == "__getitem__":
             body.append("    def __getitem__(self, index: int) -> Contacts: ...")
         elif member == "__enter__":
@@ -427,7 +431,8 @@ def class_lines(name, kind):
             function = value.__func__ if static else value
             lines = with_doc(function_lines(own, member, function, method=not static, static=static), function, member)
             body += ["    " + line if line else "" for text in lines for line in text.split("\n")]
-    return [f"class {name}:", *doc_lines(kind.__doc__, name, "    "), *(body or ["    ..."])]
+    base = "(int)" if issubclass(kind, int) else ""
+    return [f"class {name}{base}:", *doc_lines(kind.__doc__, name, "    "), *(body or ["    ..."])]
 
 
 def stubs():

@@ -14,7 +14,7 @@ HEADERS = sorted(path for path in (pathlib.Path(__file__).resolve().parents[2] /
 
 # Types that Python has in another form.
 OTHER_TYPES = {
-    "Vec3": "array", "Transform": "matrix", "BodyId": "int", "WalkPart": "int", "IndexPair": "array", "TrianglePair": "array",
+    "Vec3": "array", "Transform": "matrix", "WalkPart": "int", "IndexPair": "array", "TrianglePair": "array",
     "BodyPair": "array", "PiecePair": "array", "VertexPair": "array", "Placement": "poses", "MotionPair": "motions",
     "BodyMotion": "dict", "RigidShape": "shapes", "BodyQuery": "keywords", "SpeedBounds": "keywords", "MarkChanges": "keywords", "EarlierGroup": "within a store", "WalkQuery": "keywords", "Progress": "function",
     "ElementaryPair": "arrays", "ElementaryQueries": "arrays", "StoreClashReport": "ClashReport", "WalkAnswer": "its members",
@@ -25,6 +25,7 @@ OTHER_TYPES = {
 OTHER_FUNCTIONS = {
     "to_string": "members of an enum have a name", "make_mesh": "Mesh", "clash_id_text": "ids are text",
     "parse_clash_id": "ids are text", "set_task_runner": "a pool of threads of C++", "told_distance": "max(rounding, 1e-12) is what counts as 0",
+    "inverse": "Pose.inverse", "apply": "Pose.apply", "rotate": "Pose.rotate",
 }
 OTHER_MEMBERS = {
     "Model": {"mesh": None}, "Mesh": {"positions": "vertices", "triangles": "faces"},

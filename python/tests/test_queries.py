@@ -85,6 +85,13 @@ def test_options_and_results():
         abut.distance(a, None, a)
     with pytest.raises(TypeError, match="is not for str"):
         abut.distance("a", None, a, None)
+    class Trimesh:
+        vertices, faces = [], []
+    for mesh in (Trimesh(), abut.Mesh(*box())):
+        with pytest.raises(TypeError, match="make an abut.Model of a mesh first"):
+            abut.distance(mesh, None, mesh, None)
+    with pytest.raises(TypeError, match="is not for abut.*Model and str: help"):
+        abut.distance(a, None, "a", None)
     with pytest.raises(TypeError, match="positional"):
         abut.distance(a, None, a, None, 3)
     with pytest.raises(ValueError, match="'some' is no ContactMode"):

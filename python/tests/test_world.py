@@ -1,4 +1,5 @@
 import gc
+import pickle
 
 import numpy as np
 import pytest
@@ -247,3 +248,64 @@ def test_a_solid_as_convex_pieces():
     world.add(abut.Compound(abut.ConvexPieces(box)))
     world.add(abut.Sphere((1.5, 0.5, 0.5), 1))
     assert len(world.collide()) == 1
+
+
+def test_ids_know_their_world():
+    first, second = abut.World(), abut.World()
+    ball = abut.Sphere((0, 0, 0), 1)
+    a, b = first.add(ball), second.add(ball)
+    assert isinstance(a, int) and isinstance(a, abut.BodyId) and a == b == 0 and hash(a) == hash(b)
+    motion = abut.Motion.fixed(None)
+    for use in (lambda: first.move(b, None), lambda: first.remove(b), lambda: first.box(b), lambda: first.set_options(b),
+                lambda: first.time_of_impact({b: motion}), lambda: first.time_of_impact([(b, motion)]),
+                lambda: first.time_to_collision(a, b), lambda: first.set_speed(b)):
+        with pytest.raises(abut.Error, match="body 0: is a body of another world"):
+            use()
+    assert first.is_valid(a) and not first.is_valid(b)
+    first.move(a, matrix((1, 0, 0)))
+    # The ids of single results know it too; arrays and filters have plain integers, which any world takes.
+    seen = first.first_hit((-9, 0, 0), (1, 0, 0)).body
+    assert first.is_valid(seen) and not second.is_valid(seen)
+    assert second.is_valid(0) and second.is_valid(np.array([a])[0])
+    # It is an int wherever one is wanted: as a key, an index, in an array, in a pickle.
+    assert {a: "x"}[0] == "x" and [5][a] == 5 and np.arange(3)[[a, a]].tolist() == [0, 0] and np.array([a]).dtype.kind == "i"
+    assert pickle.loads(pickle.dumps(a)) == 0 and type(pickle.loads(pickle.dumps(a))) is int
+    assert (a.index, a.generation, abut.BodyId(3).world) == (0, 0, 0) and a.world != b.world
+    # An id outlives its world.
+    del second
+    gc.collect()
+    assert not first.is_valid(b) and abut.World().add(ball).world not in (a.world, b.world)
+    first.remove(a)
+    for _ in range(3):
+        first.update()
+    again = first.add(ball)
+    assert (again.index, again.generation) == (0, 1) and again == 1 << 32
+
+
+def test_indices_end_behind_the_pieces_of_compounds():
+    world = abut.World()
+    ball = abut.Sphere((0, 0, 0), 1)
+    ids = [world.add(abut.Compound([ball, (ball, matrix((3, 0, 0))), (ball, matrix((6, 0, 0)))]), matrix((0, 4 * i, 0))) for i in range(3)]
+    assert [body.index for body in ids] == [0, 3, 6] and len(world) == 3
+    assert world.index_end() == 9
+
+
+def test_convex_pieces_are_a_body():
+    world = abut.World()
+    solid = abut.ConvexPieces(abut.Model(*box()))
+    world.add(solid)
+    world.add(abut.Compound(solid), matrix((0.5, 0, 0)))
+    assert world.collide().tolist() == [[0, 1]]
+    with pytest.raises(TypeError, match="Compound, ConvexPieces or Deformable"):
+        world.add("box")
+
+
+def test_a_matrix_with_nan_is_said_to_have_one():
+    world = abut.World()
+    for place in ((3, 3), (3, 0), (0, 0), (2, 1)):
+        bad = np.eye(4)
+        bad[place] = np.nan
+        with pytest.raises(ValueError, match="the matrix has a value that is not finite"):
+            world.add(abut.Sphere((0, 0, 0), 1), bad)
+    with pytest.raises(ValueError, match="last row"):
+        world.add(abut.Sphere((0, 0, 0), 1), np.ones((4, 4)))

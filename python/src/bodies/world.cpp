@@ -131,7 +131,8 @@ py::class_<Bodies> world_class(py::module_& module) {
                "all other shapes are solid. A world keeps its models and "
                "deformables "
                "alive.\n\n"
-               "A body is an int; it is valid until the body is removed, and then never again.\n\n"
+               "A body is a BodyId, an int; it is valid until the body is removed, and then never "
+               "again.\n\n"
                "broad_phase  a BroadPhaseMethod\n"
                "filter       function of two bodies, a before b, that tells whether they may meet; "
                "called "
@@ -156,9 +157,8 @@ py::class_<Bodies> world_class(py::module_& module) {
             py::arg("is_static") = false, py::arg("groups") = 1U, py::arg("mask") = ~0U,
             py::arg("user_data") = 0U,
             "Adds a Model, Convex, Sphere, Capsule, Box3, Cylinder, Cone, Ellipsoid, HalfSpace, "
-            "Compound or "
-            "Deformable;\n"
-            "returns its body, an int.\n\n"
+            "Compound, ConvexPieces or Deformable;\n"
+            "returns its body, a BodyId.\n\n"
             "pose       rigid: a matrix of shape (4, 4), (translation, quaternion) or a Pose; none "
             "for a Deformable\n"
             "is_static  static bodies do not meet each other\n"
@@ -171,7 +171,9 @@ py::class_<Bodies> world_class(py::module_& module) {
         .def("move", &Bodies::move, py::arg("body"), py::arg("pose"),
              "Moves a body; or many: an array of bodies of shape (n,) and one of poses of shape "
              "(n, 4, 4).\n\n"
-             "Raises Error (bad_argument) if the body is not valid or is a deformable.")
+             "Raises Error (bad_argument) if the body is not valid or is a deformable. A BodyId of "
+             "another World is not valid;\n"
+             "the integers of an array do not tell their World.")
         .def(
             "refresh",
             [](Bodies& self, BodyId body) { self.run([&](World& world) { world.refresh(body); }); },
@@ -220,6 +222,12 @@ void add_world_state(py::class_<Bodies>& type) {
             py::arg("body"))
         .def("__len__",
              [](Bodies& self) { return self.quick([](World& world) { return world.size(); }); })
+        .def(
+            "index_end",
+            [](Bodies& self) { return self.quick([](World& world) { return world.index_end(); }); },
+            "How many entries an array needs that is read by BodyId.index: often more than len(), "
+            "since each piece of a\n"
+            "Compound takes an index, and that of a removed body is used again only later.")
         .def(
             "world_from_body",
             [](Bodies& self, BodyId body) {
@@ -327,7 +335,9 @@ void add_world_contacts(py::class_<Bodies>& type) {
         },
         py::arg("margin") = 0.0, py::kw_only(), py::arg("progress") = py::none(),
         "The contacts of all pairs at most `margin` apart, a length: for each region a normal "
-        "and up to four points. A\n"
+        "and up to four points.\n"
+        "A simulator's margin is at least the largest speed times the step; time_of_impact finds "
+        "what is faster. A\n"
         "record array of ContactManifold. A body inside a closed model, clear of its surface, is "
         "apart from it by the\n"
         "distance of that surface. Error (bad_argument) if the margin is negative.");
@@ -412,6 +422,7 @@ void add_world_estimates(py::class_<Bodies>& type) {
 } // namespace
 
 void bind_world(py::module_& module) {
+    bind_body_id(module);
     bind_compound(module);
     bind_contacts(module);
     bind_world_results(module);

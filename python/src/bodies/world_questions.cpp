@@ -29,8 +29,9 @@ auto ask(Bodies& self, std::uint32_t groups, const py::object& filter, const py:
     if (callback)
         query.filter = [&callback](BodyId body) {
             bool keep = false;
-            callback->call(
-                [&](const py::object& function) { keep = to_bool(function(body), "filter"); });
+            callback->call([&](const py::object& function) {
+                keep = to_bool(function(number_of(body)), "filter");
+            });
             return keep;
         };
     auto result = self.query(report, [&](World& world, const Progress& progress) {

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <sstream>
+#include <string_view>
 #include <unordered_map>
 
 namespace abut::python {
@@ -33,6 +34,20 @@ PyObject* argument(const Verb& verb, std::size_t place, PyObject* const* values,
     return nullptr;
 }
 
+/// Whether an object is an abut.Mesh, or one of another package with the members of trimesh or meshio: a
+/// Model can be made of it, but it is none.
+bool looks_like_mesh(PyObject* object) {
+    if (!object)
+        return false;
+    const std::string_view type = Py_TYPE(object)->tp_name;
+    if (type.starts_with("abut.") && !type.ends_with(".Mesh"))
+        return false;
+    const auto has = [object](const char* name) {
+        return PyObject_HasAttrString(object, name) != 0;
+    };
+    return (has("vertices") && has("faces")) || (has("points") && has("cells_dict"));
+}
+
 py::object call(const Verb& verb, PyObject* const* values, Py_ssize_t count, PyObject* names) {
     PyObject* first = argument(verb, 0, values, count, names);
     PyObject* third = argument(verb, 2, values, count, names);
@@ -44,7 +59,10 @@ py::object call(const Verb& verb, PyObject* const* values, Py_ssize_t count, PyO
     std::string types = Py_TYPE(first)->tp_name;
     if (third)
         types += std::string(" and ") + Py_TYPE(third)->tp_name;
-    throw py::type_error(verb.name + "() is not for " + types + ": help(abut." + verb.name + ")");
+    const bool is_mesh = looks_like_mesh(first) || looks_like_mesh(third);
+    throw py::type_error(verb.name + "() is not for " + types + ": " +
+                         (is_mesh ? "make an abut.Model of a mesh first; " : "") + "help(abut." +
+                         verb.name + ")");
 }
 
 PyObject* call_verb(PyObject* self, PyObject* const* values, Py_ssize_t count, PyObject* names) {

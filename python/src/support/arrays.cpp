@@ -37,6 +37,12 @@ double load(const char* address) {
     return value;
 }
 
+/// Errors: ValueError, for a value that would otherwise be blamed on the form of the matrix.
+void require_finite(double value, const char* name) {
+    if (!std::isfinite(value))
+        throw py::value_error(std::string(name) + ": the matrix has a value that is not finite");
+}
+
 /// One matrix of an array; `row` and `column` are its strides.
 Transform read_matrix(const char* data, py::ssize_t row, py::ssize_t column, const char* name) {
     Transform transform;
@@ -45,8 +51,11 @@ Transform read_matrix(const char* data, py::ssize_t row, py::ssize_t column, con
             transform.m[static_cast<std::size_t>(3 * j + i)] = load(data + i * row + j * column);
     const char* last = data + 3 * row;
     if (load(last) != 0 || load(last + column) != 0 || load(last + 2 * column) != 0 ||
-        load(last + 3 * column) != 1)
+        load(last + 3 * column) != 1) {
+        for (py::ssize_t j = 0; j < 4; ++j)
+            require_finite(load(last + j * column), name);
         throw py::value_error(std::string(name) + ": the last row of a matrix must be 0 0 0 1");
+    }
     return transform;
 }
 
@@ -96,9 +105,12 @@ Pose rigid(const Transform& transform, const char* name) {
         std::abs(dot(x, x) - 1) < kTolerance && std::abs(dot(y, y) - 1) < kTolerance &&
         std::abs(dot(x, y)) < kTolerance && std::abs(cross.x - z.x) < kTolerance &&
         std::abs(cross.y - z.y) < kTolerance && std::abs(cross.z - z.z) < kTolerance;
-    if (!rotation)
+    if (!rotation) {
+        for (std::size_t i = 0; i < 9; ++i)
+            require_finite(m[i], name);
         throw py::value_error(std::string(name) +
                               ": the matrix must be a rotation and a translation");
+    }
     // [Shepperd 1978]: the largest component is the one that is divided by.
     const double r00 = x.x, r10 = x.y, r20 = x.z, r01 = y.x, r11 = y.y, r21 = y.z, r02 = z.x,
                  r12 = z.y, r22 = z.z;
