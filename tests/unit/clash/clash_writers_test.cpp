@@ -519,7 +519,7 @@ TEST_F(ClashWriters, AFailureLeavesNothingBehind) {
 TEST_F(ClashWriters, APageHasTheViewOrSaysThatItsBuildHasNone) {
     Scene scene;
     scene.file = "boxes.glb";
-    scene.meshes = {box_mesh({0, 0, 0}, {2, 2, 2})};
+    scene.meshes = {test::box_mesh({0, 0, 0}, {2, 2, 2})};
     scene.parts = {make_part("a", "a", ""), make_part("b", "b", "")};
     scene.parts[1].world_from_mesh.m[9] = 1;
     const std::vector<Scene> models{scene};
