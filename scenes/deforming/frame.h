@@ -1,6 +1,6 @@
 #pragma once
 
-#include <abut/types.h>
+#include <abut/vector.h>
 
 #include <cmath>
 
@@ -16,13 +16,6 @@ constexpr Vec3 subtract(const Vec3& a, const Vec3& b) {
 constexpr Vec3 scaled(const Vec3& a, double s) {
     return {a.x * s, a.y * s, a.z * s};
 }
-constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-constexpr double dot(const Vec3& a, const Vec3& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
 inline double norm(const Vec3& a) {
     return std::sqrt(dot(a, a));
 }

@@ -21,8 +21,6 @@ namespace abut {
 namespace {
 
 using scenes::add;
-using scenes::cross;
-using scenes::dot;
 using scenes::norm;
 using scenes::scaled;
 using scenes::subtract;
