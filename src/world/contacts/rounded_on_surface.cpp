@@ -214,11 +214,13 @@ private:
         });
     }
 
-    /// Whether a direction leads the same way as a wall's, and no other wall's is nearer to it.
-    [[nodiscard]] bool belongs_to(const Vec3& up, const Vec3& way) const {
+    /// Whether a place of the surface belongs to a wall: the way from it to the core leads the same way as
+    /// the wall's normal, and no other wall holds it.
+    [[nodiscard]] bool belongs_to(const Vec3& up, const Vec3& place, const Vec3& way) const {
         return leads_same_way(way, up) &&
                std::all_of(walls_.begin(), walls_.end(), [&](const Wall& other) {
-                   return dot(way, other.up - up) <= kCoreRounding;
+                   return other.up == up || (other.height(place) > kLeastRise * radius_ &&
+                                             dot(way, other.up - up) <= kCoreRounding);
                });
     }
 
@@ -261,7 +263,8 @@ private:
             nearest_sq = std::min(nearest_sq, near.distance_sq);
             if (!(near.distance_sq < same_way_sq))
                 continue;
-            if (const Vec3 way = normalized_or_zero(end - near.point); belongs_to(up, way))
+            if (const Vec3 way = normalized_or_zero(end - near.point);
+                belongs_to(up, near.point, way))
                 same_way_sq = near.distance_sq, on_surface = near.point, up_there = way,
                 slot = t.slot;
         }
@@ -288,13 +291,19 @@ private:
             const double share = dot(t.on_core - ends_[0], way) / length_sq(way);
             const double over =
                 radius_ - t.distance - ((1 - share) * depth_of_end_[0] + share * depth_of_end_[1]);
-            if (over > most && belongs_to(up, (1 / t.distance) * (t.on_core - t.on_surface)))
+            if (over > most &&
+                belongs_to(up, t.on_surface, (1 / t.distance) * (t.on_core - t.on_surface)))
                 most = over, best = &t;
         }
         if (best == nullptr || radius_ - best->distance < -margin_)
             return std::nullopt;
-        const Vec3 on_solid = best->on_core - radius_ * up;
-        const double depth = radius_ - best->distance;
+        // Below the axis is the side of the capsule.
+        const Vec3 along = normalized_or_zero(way);
+        const Vec3 out = normalized_or_zero(up - dot(up, along) * along),
+                   up_there = (1 / best->distance) * (best->on_core - best->on_surface);
+        const Vec3 on_solid = best->on_core - radius_ * out;
+        const double depth =
+            std::max(dot(up_there, best->on_surface - on_solid) / dot(up_there, up), -margin_);
         return point_at(on_solid + depth * up, on_solid, depth, best->slot, centre, solid_is_a);
     }
 

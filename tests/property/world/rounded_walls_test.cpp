@@ -116,6 +116,48 @@ TEST(RoundedWalls, ACornerOfThreeWallsHoldsABall) {
     }
 }
 
+TEST(RoundedWalls, ACornerOfThreeWallsHoldsACapsuleByItsDepthInEach) {
+    // Each wall in cells: places of one wall beside the capsule must not count as places of another.
+    Random random(20261407);
+    std::cout << "seed 20261407\n";
+    int walls = 0;
+    for (int round = 0; round < many(300); ++round) {
+        const int cells = random.integer(1, 10);
+        Mesh room;
+        for (const int axis : {0, 1, 2}) {
+            const Mesh wall = grid_mesh(cells, cells, false, false, [=](double u, double v) {
+                const double x = 4 * u, y = 4 * v;
+                return axis == 0 ? Vec3{0, x, y} : axis == 1 ? Vec3{x, 0, y} : Vec3{x, y, 0};
+            });
+            const auto first = static_cast<std::uint32_t>(room.positions.size());
+            room.positions.insert(room.positions.end(), wall.positions.begin(),
+                                  wall.positions.end());
+            for (const auto& t : wall.triangles)
+                room.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+        }
+        const double radius = random.uniform(0.3, 1.2);
+        const auto place = [&] { return random.uniform(0.5, 1.3) * radius; };
+        const Vec3 from{place(), place(), place()};
+        const Vec3 to =
+            from + random.uniform(0, 1) *
+                       Vec3{random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1)};
+        World world;
+        world.add(Model(room), {});
+        world.add(Capsule{{from, to}, radius}, {});
+        for (const ContactManifold& m : world.contact_manifolds(0.05)) {
+            const Vec3 n = m.normal;
+            const double most = std::max({n.x, n.y, n.z});
+            ASSERT_GT(most, 1 - 1e-12) << "round " << round;
+            const double nearest = std::min(dot(n, from), dot(n, to));
+            EXPECT_NEAR(m.points[0].depth, radius - nearest, 1e-9) << "round " << round;
+            for (std::uint32_t k = 0; k < m.count; ++k)
+                EXPECT_NEAR(dot(n, m.points[k].point_a), 0, 1e-9) << "round " << round;
+            ++walls;
+        }
+    }
+    EXPECT_GT(walls, many(300));
+}
+
 TEST(RoundedWalls, AFloorOfManyTrianglesIsOneWall) {
     Random random(20261403);
     int found_any = 0;
