@@ -30,8 +30,8 @@ struct ContactPoint {
 /// A region where two bodies are in contact. The points are the corners of that region, without
 /// those that four others represent. The region of a disc has 16 corners on its rim.
 struct ContactManifold {
-    BodyId a, b;              ///< a.index < b.index
-    Vec3 normal;              ///< unit vector from a to b
+    BodyId a, b; ///< a.index < b.index
+    Vec3 normal; ///< unit vector from a to b
     /// Names the contact region of this pair; 0 for convex bodies. A ball or capsule has one for each
     /// wall of a model that it touches.
     std::uint32_t region = 0;
