@@ -13,9 +13,8 @@ namespace abut {
 /// A point where two bodies touch, penetrate each other, or are near each other.
 struct ContactPoint {
     /// On the two surfaces, world frame: point_a - point_b is `depth` times the normal. With a margin,
-    /// the points of two models need not lie on one line along the normal, nor do those of a solid
-    /// beside an edge of a model that is not convex: `depth` is the part along the normal. The
-    /// deepest point of a capsule inside of a model that is not convex may lie inside the capsule, if
+    /// those of a solid beside an edge of a model that is not convex need not lie on one line along the
+    /// normal: `depth` is the part along it. The deepest point of a capsule inside of a model that is not convex may lie inside the capsule, if
     /// another face is nearest to the rest of its axis.
     Vec3 point_a, point_b;
     double depth = 0;          ///< along the normal; negative: a gap, at most the margin

@@ -19,9 +19,8 @@ struct ModelManifold {
     std::uint32_t region = 0; ///< names the region; see ManifoldOptions::last
     std::uint32_t count = 0;  ///< of the points that are set, 1 to 4; the deepest comes first
     /// The two points of a contact point lie on the two surfaces. Its depth is
-    /// dot(normal, point_a - point_b). Where surfaces cross, both points lie on one line along the
-    /// normal; the points of a gap need not. Its `feature` names a vertex, a pair of triangles, or
-    /// the middle of the region.
+    /// dot(normal, point_a - point_b). Both points lie on one line along the normal, to rounding; not
+    /// those of `bound_only`. Its `feature` names a vertex, a pair of triangles, or the middle of the region.
     std::array<ContactPoint, 4> points;
     /// exact: the depths are those of the points, to rounding; not the largest of the region.
     /// bound_only: the one point is from `penetration`, or no line along the normal was found that

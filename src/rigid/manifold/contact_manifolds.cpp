@@ -33,6 +33,7 @@ struct ManifoldMemory {
     MeetingRegions regions;
     std::vector<std::uint32_t> part;
     std::vector<TriangleMeeting> one_part, facing;
+    std::vector<RegionFrame> frames; ///< of the parts
 
     /// Frees what one huge pair has needed.
     void trim() {
@@ -138,7 +139,8 @@ public:
     }
 
 private:
-    /// A region without faces around the corner, unless it has no others.
+    /// A region without faces around the corner, unless it has no others, or only such a face is as near
+    /// as the nearest.
     static std::span<const TriangleMeeting> without_beside(std::span<const TriangleMeeting> region,
                                                            std::vector<TriangleMeeting>& facing) {
         const auto is_beside = [](const TriangleMeeting& m) { return m.is_beside; };
@@ -146,27 +148,70 @@ private:
             return region;
         facing.clear();
         std::remove_copy_if(region.begin(), region.end(), std::back_inserter(facing), is_beside);
-        return facing.empty() ? region : std::span<const TriangleMeeting>(facing);
+        const auto nearest = [](std::span<const TriangleMeeting> of) {
+            double weight = 0;
+            for (const TriangleMeeting& m : of)
+                weight = std::max(weight, m.weight);
+            return weight;
+        };
+        constexpr double kNearer = 1 + 0x1p-20;
+        const bool keeps_nearest =
+            !facing.empty() &&
+            (!facing.front().is_gap() || nearest(region) <= kNearer * nearest(facing));
+        return keeps_nearest ? std::span<const TriangleMeeting>(facing) : region;
     }
 
+    /// The pairs of a region that meet; all of them if none does.
+    static std::span<const TriangleMeeting> deciding(std::span<const TriangleMeeting> region) {
+        const auto gap = std::find_if(region.begin(), region.end(),
+                                      [](const TriangleMeeting& m) { return m.is_gap(); });
+        const auto meeting = static_cast<std::size_t>(gap - region.begin());
+        return meeting > 0 ? region.first(meeting) : region;
+    }
+
+    /// Adds a region. Pairs that are only near give points to what meets, and change nothing else.
     void add_region(std::span<const TriangleMeeting> region, ManifoldMemory& memory) {
-        const RegionFrame frame = region_frame(a_, b_, region, true);
+        const std::span<const TriangleMeeting> decides = deciding(region);
+        const RegionFrame frame = region_frame(a_, b_, decides, true);
         if ((frame.only_touches || frame.is_flush) && (a_.is_oriented() || b_.is_oriented()) &&
             add_doubtful(region, frame, memory.meetings))
             return;
-        const std::uint32_t parts = split_where_hollow(region, memory.part);
+        const std::uint32_t parts = split_where_hollow(decides, memory.part);
         if (parts == 1 || frame.is_hole) {
             add(region, memory.meetings, frame);
             return;
         }
+        memory.frames.assign(parts, {});
+        for (std::uint32_t k = 0; k < parts; ++k)
+            if (take_part(decides, k, memory))
+                memory.frames[k] = region_frame(a_, b_, memory.one_part, false);
         for (std::uint32_t k = 0; k < parts; ++k) {
-            memory.one_part.clear();
-            for (std::size_t i = 0; i < region.size(); ++i)
-                if (memory.part[i] == k)
-                    memory.one_part.push_back(region[i]);
-            if (!memory.one_part.empty())
-                add(memory.one_part, memory.meetings, region_frame(a_, b_, memory.one_part, false));
+            if (!take_part(decides, k, memory))
+                continue;
+            for (const TriangleMeeting& m : region.subspan(decides.size()))
+                if (part_of_gap(m, memory.frames) == k)
+                    memory.one_part.push_back(m);
+            add(memory.one_part, memory.meetings, memory.frames[k]);
         }
+    }
+    /// Sets the meetings of one part. Returns whether there are any.
+    static bool take_part(std::span<const TriangleMeeting> region, std::uint32_t part,
+                          ManifoldMemory& memory) {
+        memory.one_part.clear();
+        for (std::size_t i = 0; i < region.size(); ++i)
+            if (memory.part[i] == part)
+                memory.one_part.push_back(region[i]);
+        return !memory.one_part.empty();
+    }
+    /// The part whose normal is nearest to a gap's direction.
+    static std::uint32_t part_of_gap(const TriangleMeeting& m,
+                                     const std::vector<RegionFrame>& frames) {
+        const auto along = [&](const RegionFrame& f) { return dot(f.normal, m.to - m.from); };
+        return static_cast<std::uint32_t>(
+            std::max_element(
+                frames.begin(), frames.end(),
+                [&](const RegionFrame& f, const RegionFrame& g) { return along(f) < along(g); }) -
+            frames.begin());
     }
 
     /// Adds a region whose normal is in doubt: equal boxes, of which one is stacked a little inside

@@ -95,19 +95,31 @@ std::uint32_t MeetingRegions::first_with(std::uint64_t key, std::uint32_t meetin
 
 std::uint32_t MeetingRegions::group(TriangleMeetings& meetings) {
     std::vector<TriangleMeeting>& all = meetings.all;
+    const auto meeting = static_cast<std::uint32_t>(
+        std::find_if(all.begin(), all.end(), [](const TriangleMeeting& m) { return m.is_gap(); }) -
+        all.begin());
     DisjointSets sets(all.size());
     const auto connect = [&](std::uint32_t TrianglePair::*shared,
-                             std::uint32_t TriangleMeeting::*differing) {
-        begin_pass(all.size());
-        for (std::uint32_t i = 0; i < all.size(); ++i) {
+                             std::uint32_t TriangleMeeting::*differing, std::size_t count) {
+        begin_pass(count);
+        for (std::uint32_t i = 0; i < count; ++i) {
             const std::uint64_t key = std::uint64_t{all[i].pair.*shared} << 32U;
-            for (const std::uint32_t v : meetings.faces[all[i].*differing].vertices)
-                if (const std::uint32_t j = first_with(key | v, i); j != i)
+            for (const std::uint32_t v : meetings.faces[all[i].*differing].vertices) {
+                const std::uint32_t j = first_with(key | v, i);
+                // The root is the least member: of a set with pairs that meet, one of these.
+                if (j != i && (i < meeting || sets.root(i) >= meeting || sets.root(j) >= meeting))
                     sets.unite(i, j);
+            }
         }
     };
-    connect(&TrianglePair::a, &TriangleMeeting::face_b);
-    connect(&TrianglePair::b, &TriangleMeeting::face_a);
+    const auto connect_all = [&](std::size_t count) {
+        connect(&TrianglePair::a, &TriangleMeeting::face_b, count);
+        connect(&TrianglePair::b, &TriangleMeeting::face_a, count);
+    };
+    if (meeting > 0)
+        connect_all(meeting);
+    if (meeting < all.size())
+        connect_all(all.size());
     std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < all.size(); ++i) {
         const std::uint32_t root = sets.root(i); // the least member: it has its region already

@@ -12,7 +12,7 @@ namespace abut {
 ///
 /// Two meetings of one triangle belong together if their other triangles share a vertex. A region
 /// then is a connected curve or area, perhaps together with others that pass through neighbouring
-/// triangles.
+/// triangles. Pairs that are only near join no two regions that meet.
 class MeetingRegions {
 public:
     /// Sets the region of each meeting and sorts them by it, and within a region by pair. Returns

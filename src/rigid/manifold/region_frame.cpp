@@ -2,6 +2,7 @@
 
 #include "rigid/manifold/touching_direction.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -29,11 +30,9 @@ struct RegionSums {
     Vec3 across; ///< directions across the features of triangles that touch, to rounding
     int across_count = 0;
     const TriangleMeeting* in_touch = nullptr; ///< one of those
-    Vec3 gaps;                                 ///< directions, weighted
     Vec3 common_area;                          ///< of touching faces
     Vec3 moment;
     double length = 0; ///< of the curve
-    double gap_weight = 0;
     bool touches = false;
     bool is_flush = false; ///< some touching faces have the same normal
 
@@ -69,12 +68,8 @@ RegionSums sum_up(std::span<const TriangleMeeting> region) {
             s.touches = true;
             s.is_flush = s.is_flush || dot(m.normal_a, m.normal_b) > kSameNormal;
         } else {
-            // The direction of a gap that is rounding is that of the features.
-            const Vec3 way = m.is_slight ? m.across : normalized_or_zero(m.to - m.from);
             s.add_across(m);
             s.common_area = s.common_area + m.common_area;
-            s.gaps = s.gaps + m.weight * way;
-            s.gap_weight += way != Vec3{} ? m.weight : 0;
         }
     }
     return s;
@@ -165,6 +160,20 @@ Vec3 normal_of_touching(const ManifoldSide& a, const ManifoldSide& b, const Regi
                               : flatter_side(s.touching_a, s.touching_b);
 }
 
+/// The direction of the smallest gap: that of a face's normal where it is the same to rounding.
+Vec3 direction_of_nearest(std::span<const TriangleMeeting> region) {
+    const TriangleMeeting& nearest = *std::max_element(
+        region.begin(), region.end(),
+        [](const TriangleMeeting& m, const TriangleMeeting& n) { return m.weight < n.weight; });
+    const Vec3 way = normalized_or_zero(nearest.to - nearest.from);
+    constexpr double kSame = 0x1p-24;
+    for (const Vec3& normal : {nearest.normal_a, -nearest.normal_b})
+        for (const Vec3& face : {normal, -normal}) // of open surfaces, either side
+            if (length(face - way) <= kSame)
+                return face;
+    return way;
+}
+
 /// Turns the normal of a pair without an inside so that it points to the side on which the other
 /// model's middle is.
 Vec3 turned_to_outside(const Vec3& normal, const ManifoldSide& a, const ManifoldSide& b,
@@ -194,8 +203,7 @@ RegionFrame region_frame(const ManifoldSide& a, const ManifoldSide& b,
     else if (s.in_touch != nullptr)
         frame.normal = normal_of_touching(a, b, s);
     else
-        frame.normal =
-            snapped(normalized_or_zero(s.gaps), region, TriangleContact::none, s.gap_weight);
+        frame.normal = direction_of_nearest(region);
     if ((frame.crosses || s.touches) && !(a.is_oriented() && b.is_oriented()))
         frame.normal = turned_to_outside(frame.normal, a, b, frame.centre);
     if (frame.normal == Vec3{})

@@ -37,7 +37,7 @@ struct RegionFrame {
 /// curve encloses little for its length, or the region is a part of a longer curve, the mean normal
 /// of the flatter side. If many faces of one side within 30 degrees of that have the same normal,
 /// it is theirs. Touching faces: the normal of the common area; else the mean direction across the
-/// features that touch, or what the models' triangles tell there. Near triangles: the mean direction of their gaps.
+/// features that touch, or what the models' triangles tell there. Near triangles: the direction of the smallest gap.
 ///
 /// In          region: not empty; `whole`: not a part of a longer curve.
 RegionFrame region_frame(const ManifoldSide& a, const ManifoldSide& b,

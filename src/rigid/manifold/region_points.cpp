@@ -60,7 +60,7 @@ public:
         manifold_.normal = frame_.normal;
         if (!first) {
             manifold_.status = Status::bound_only;
-            const TriangleMeeting& m = most_weighty();
+            const TriangleMeeting& m = meeting_ > 0 ? region_[meeting_ / 2] : nearest_gap();
             const Vec3 on_b = m.kind == TriangleContact::none ? m.to : m.from;
             first = ContactPoint{
                 m.from,   on_b,    dot(frame_.normal, m.from - on_b), point_name::triangles(m.pair),
@@ -84,22 +84,23 @@ private:
 
     void collect() {
         for (const TriangleMeeting& m : region_) {
-            has_gaps_ = has_gaps_ || m.is_gap();
+            meeting_ += m.is_gap() ? 0 : 1;
             for (std::uint32_t i = 0; i < m.point_count; ++i)
                 collect_fixed(m.pair, meetings_.points[m.first_point + i]);
             if (m.kind == TriangleContact::cross)
                 collect_line(m.from, m.pair, point_name::triangles(m.pair));
         }
-        if (has_gaps_)
-            collect_gaps();
-        const double width = extent_of_region();
+        // What is only near changes nothing above: what meets is the same with a margin as without.
+        const double width = extent_of(Among::meeting);
         lowest_ -= width, highest_ += width;
         for (const TriangleMeeting& m : region_)
             if (m.kind == TriangleContact::cross)
                 collect_vertices(m);
         const double radius = farthest_reach();
-        memory_.rays_a.begin(a_, frame_, radius, region_.size() <= kFewTriangles);
-        memory_.rays_b.begin(b_, frame_, radius, region_.size() <= kFewTriangles);
+        memory_.rays_a.begin(a_, frame_, radius, is_small());
+        memory_.rays_b.begin(b_, frame_, radius, is_small());
+        if (meeting_ < region_.size())
+            collect_gaps();
     }
 
     [[nodiscard]] PointCandidate candidate(PointCandidate::Kind kind, const Vec3& at,
@@ -115,13 +116,12 @@ private:
                         candidate(PointCandidate::Kind::line, at, pair, feature));
     }
 
-    /// The meeting with the longest segment or the smallest gap.
-    [[nodiscard]] const TriangleMeeting& most_weighty() const {
+    [[nodiscard]] bool is_small() const { return meeting_ <= kFewTriangles; }
+    [[nodiscard]] const TriangleMeeting& nearest_gap() const {
         return *std::max_element(
             region_.begin(), region_.end(),
             [](const TriangleMeeting& m, const TriangleMeeting& n) { return m.weight < n.weight; });
     }
-
     /// Whether the points of a pair that is only near lie along the normal, to less than a right angle.
     [[nodiscard]] bool is_gap_along_normal(const TriangleMeeting& m) const {
         return m.is_gap() && is_along_normal(m.from - m.to);
@@ -157,10 +157,9 @@ private:
         }
     }
     void collect_points(const TriangleMeeting& m) {
-        for (const FixedPoint& p : near_points(m, meetings_, margin_))
+        for (const FixedPoint& p : points_along(m, meetings_, frame_.normal, margin_, rounding_))
             collect_fixed(m.pair, p);
     }
-
     /// Whether a point of a pair may have been chosen in the last step.
     [[nodiscard]] bool was_any_chosen(const TriangleMeeting& m) const {
         bool any = last_.has(point_name::triangles(m.pair));
@@ -278,9 +277,9 @@ private:
         constexpr int kRounds = 6;
         PointCandidate line{PointCandidate::Kind::line, frame_.centre, {}, {}, point_name::kMiddle};
         std::optional<ContactPoint> best = measured(line);
-        if (region_.size() > kFewTriangles)
+        if (!is_small())
             return best;
-        double step = 0.25 * extent_of_region();
+        double step = 0.25 * extent_of(Among::meeting);
         for (int round = 0; round < kRounds; ++round, step *= 0.5) {
             const Vec3 from = line.at;
             for (const Vec3& way :
@@ -376,7 +375,7 @@ private:
     /// Adds the point that widens the chosen ones most. Returns false if none does.
     bool add_farthest(Among among) {
         const double least =
-            (among == Among::meeting ? kMeetingSpread : kLeastSpread) * extent_of_region();
+            (among == Among::meeting ? kMeetingSpread : kLeastSpread) * extent_of(Among::all);
         while (tried_count_ < kMostTried) {
             double best_spread = least;
             PointCandidate best;
@@ -398,11 +397,12 @@ private:
         return false;
     }
 
-    [[nodiscard]] double extent_of_region() const {
+    [[nodiscard]] double extent_of(Among among) const {
         double extent = 0;
         for (std::size_t k = 0; k < kAround / 2; ++k)
             for (const Extremes* e : {&fixed_, &gaps_, &vertices_a_, &vertices_b_, &curve_})
-                if ((*e)[k].candidate.kind != PointCandidate::Kind::none)
+                if ((among == Among::all || e != &gaps_) &&
+                    (*e)[k].candidate.kind != PointCandidate::Kind::none)
                     extent = std::max(extent, (*e)[k].reach + (*e)[k + kAround / 2].reach);
         return extent;
     }
@@ -429,7 +429,7 @@ private:
     LastNames last_;
     Extremes vertices_a_, vertices_b_, fixed_, gaps_, curve_; ///< fixed_ have no gap
     Extreme lowest_b_, highest_a_, deepest_fixed_;
-    bool has_gaps_ = false;           ///< some pairs are only near
+    std::size_t meeting_ = 0;         ///< number of pairs that meet; they come first
     double lowest_ = 0, highest_ = 0; ///< heights over the centre; see is_near_curve
     std::array<std::uint64_t, kMostTried> tried_{};
     std::ptrdiff_t tried_count_ = 0;

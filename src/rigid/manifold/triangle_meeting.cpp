@@ -48,8 +48,7 @@ private:
     MeetingPairs& pairs_;
 };
 
-/// A length of at most this many roundings of a position may be rounding.
-constexpr double kSlight = 16;
+constexpr double kSlight = 16; ///< a length of so many roundings of a position may be rounding
 /// The direction of a gap of at most this many roundings is rounded by 2^-10 or more.
 constexpr double kSlightGap = 0x1p10;
 
@@ -383,6 +382,9 @@ void describe_meetings(const PlacedPair& placed, const ManifoldSide& a, const Ma
         writer.add_near(pair);
     }
     writer.measure();
+    const auto meets = [](const TriangleMeeting& m) { return !m.is_gap(); };
+    if (!std::is_partitioned(meetings.all.begin(), meetings.all.end(), meets))
+        std::stable_partition(meetings.all.begin(), meetings.all.end(), meets);
 }
 
 NearPoints near_points(const TriangleMeeting& m, const TriangleMeetings& meetings, double margin) {
@@ -399,6 +401,49 @@ NearPoints near_points(const TriangleMeeting& m, const TriangleMeetings& meeting
     const ClosestPoints nearest = triangle_triangle_distance(ta, tb);
     if (nearest.on_a.kind != Feature::vertex && nearest.on_b.kind != Feature::vertex)
         points.push_back({nearest.a, nearest.b, point_name::triangles(m.pair)});
+    return points;
+}
+
+NearPoints points_along(const TriangleMeeting& m, const TriangleMeetings& meetings,
+                        const Vec3& normal, double margin, double rounding) {
+    const MeetingFace &fa = meetings.faces[m.face_a], &fb = meetings.faces[m.face_b];
+    NearPoints points;
+    const auto add = [&](const Vec3& on_a, const Vec3& on_b, std::uint64_t name) {
+        const double gap = dot(normal, on_b - on_a);
+        if (gap > 0 && gap <= margin)
+            points.push_back({on_a, on_b, name});
+    };
+    // The place of a face on the line along the normal through a point.
+    const auto place_over = [&](const Vec3& p, const MeetingFace& face) -> std::optional<Vec3> {
+        constexpr double kAcross = 0x1p-20;
+        const double slope = dot(face.unit_normal, normal);
+        if (!(std::abs(slope) > kAcross))
+            return std::nullopt;
+        const Vec3 place = p + (dot(face.unit_normal, face.corners[0] - p) / slope) * normal;
+        const double off = kSlight * rounding / std::abs(slope);
+        return nearest_on_triangle(place, face.corners).distance_sq <= off * off
+                   ? std::optional(place)
+                   : std::nullopt;
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (const auto on_a = place_over(fb.corners[k], fa))
+            add(*on_a, fb.corners[k], point_name::vertex_b(fb.vertices[k]));
+        if (const auto on_b = place_over(fa.corners[k], fb))
+            add(fa.corners[k], *on_b, point_name::vertex_a(fa.vertices[k]));
+    }
+    const double near = kSlight * rounding;
+    const bool is_there = std::any_of(points.begin(), points.end(), [&](const FixedPoint& p) {
+        return max_abs(p.a - m.from) <= near && max_abs(p.b - m.to) <= near;
+    });
+    if (!is_there && length(cross(m.to - m.from, normal)) <= near) {
+        std::uint64_t name = point_name::triangles(m.pair);
+        for (std::size_t k = 0; k < 6; ++k)
+            if (k < 3 && max_abs(fa.corners[k] - m.from) <= near)
+                name = point_name::vertex_a(fa.vertices[k]);
+            else if (k >= 3 && max_abs(fb.corners[k - 3] - m.to) <= near)
+                name = point_name::vertex_b(fb.vertices[k - 3]);
+        add(m.from, m.to, name);
+    }
     return points;
 }
 

@@ -93,7 +93,7 @@ struct MeetingPairs {
 /// Cost        of the pairs that are near, their bounds in single precision.
 MeetingPairs meeting_pairs(const PlacedPair& pair, double margin);
 
-/// Computes where the pairs meet. Those that meet come first, in their order.
+/// Computes where the pairs meet. Those that meet, or are apart by no more than rounding, come first.
 ///
 /// In          a, b: the sides of the placed pair.
 /// Cost        of a pair that is only near, one lane of eight that are measured at once.
@@ -106,5 +106,12 @@ using NearPoints = boost::container::static_vector<FixedPoint, 7>;
 /// The nearest points of the triangles, if they lie on no vertex, and those of each vertex within the
 /// margin.
 NearPoints near_points(const TriangleMeeting& m, const TriangleMeetings& meetings, double margin);
+
+/// As near_points, on lines along a normal: a vertex and the place of the other triangle that lies over it,
+/// or the nearest points where the gap is along the normal.
+///
+/// In          rounding: of positions.
+NearPoints points_along(const TriangleMeeting& m, const TriangleMeetings& meetings,
+                        const Vec3& normal, double margin, double rounding);
 
 } // namespace abut

@@ -120,6 +120,64 @@ Mesh rounded_body(Random& random) {
     }
 }
 
+TEST(ModelContactsProperty, AMarginKeepsTheNormalsOfWhatMeets) {
+    Random random(20261408);
+    std::cout << "seed 20261408\n";
+    int regions = 0, same_depth = 0;
+    for (int i = 0; i < many(150); ++i) {
+        const ShallowPair pair =
+            shallow_pair(random, Model(make_solid(random, random.integer(0, kSolidKinds - 1))),
+                         Model(make_solid(random, random.integer(0, 9))), 0.03);
+        const auto without = contact_manifolds(pair.a, pair.place_a, pair.b, pair.place_b, {});
+        const auto with = contact_manifolds(pair.a, pair.place_a, pair.b, pair.place_b,
+                                            {.margin = random.uniform(0.001, 0.3)});
+        for (const ModelManifold& m : without) {
+            ++regions;
+            const auto same = std::find_if(with.begin(), with.end(), [&](const ModelManifold& n) {
+                return length(m.normal - n.normal) <= 1e-9;
+            });
+            ASSERT_NE(same, with.end()) << "round " << i;
+            same_depth += std::any_of(with.begin(), with.end(), [&](const ModelManifold& n) {
+                return length(m.normal - n.normal) <= 1e-9 &&
+                       std::abs(m.points[0].depth - n.points[0].depth) <= 1e-9;
+            });
+        }
+    }
+    std::cout << regions << " regions, " << same_depth << " as deep\n";
+    EXPECT_GT(regions, many(100));
+    // Points with a gap may take the place of a point that happened to be deeper than the first.
+    EXPECT_GE(same_depth, regions * 95 / 100);
+}
+
+TEST(ModelContactsProperty, TheDeepestGapIsTheDistanceAndGapsAreAlongTheNormal) {
+    Random random(20261409);
+    std::cout << "seed 20261409\n";
+    int apart = 0, gaps = 0;
+    for (int i = 0; i < many(150); ++i) {
+        const double gap = random.uniform(0.001, 0.1);
+        const ShallowPair pair =
+            shallow_pair(random, Model(make_solid(random, random.integer(0, kSolidKinds - 1))),
+                         Model(make_solid(random, random.integer(0, 9))), -gap);
+        const double least = distance(pair.a, pair.place_a, pair.b, pair.place_b).distance;
+        const auto found = contact_manifolds(pair.a, pair.place_a, pair.b, pair.place_b,
+                                             {.margin = random.uniform(1, 3) * gap});
+        if (!(least > 0) || found.empty())
+            continue;
+        ++apart;
+        double deepest_gap = -std::numeric_limits<double>::infinity();
+        for (const ModelManifold& m : found)
+            for (std::uint32_t k = 0; k < m.count; ++k, ++gaps) {
+                const ContactPoint& p = m.points[k];
+                deepest_gap = std::max(deepest_gap, p.depth);
+                EXPECT_LE(length(p.point_a - p.point_b - p.depth * m.normal), 1e-9)
+                    << "round " << i;
+            }
+        EXPECT_NEAR(deepest_gap, -least, 1e-9) << "round " << i;
+    }
+    std::cout << apart << " apart, " << gaps << " points\n";
+    EXPECT_GT(apart, many(100));
+}
+
 TEST(ModelContactsProperty, ShallowContactsPartAlongTheirNormals) {
     Random random(7);
     int single = 0, parted = 0, close = 0;
