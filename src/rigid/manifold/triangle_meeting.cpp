@@ -169,7 +169,7 @@ public:
     void measure() {
         if (waiting_count_ == 0)
             return;
-        PairPoints found;
+        PairPoints found{};
         nearest_points(batch_, found);
         for (std::size_t lane = 0; lane < waiting_count_; ++lane)
             if (const Waiting& w = waiting_[lane];

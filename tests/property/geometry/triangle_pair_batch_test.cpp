@@ -90,7 +90,7 @@ TEST(TrianglePairBatch, NearestPointsLieOnTheTrianglesAtThatDistance) {
             TrianglePairBatch batch{};
             for (std::size_t lane = 0; lane < TrianglePairBatch::kLanes; ++lane)
                 batch.set(lane, a, batch_triangle(random, i));
-            PairPoints simd, one;
+            PairPoints simd{}, one{};
             double distances[TrianglePairBatch::kLanes];
             nearest_points(batch, simd);
             nearest_points_reference(batch, one);
