@@ -27,8 +27,8 @@ PlaceOver operator-(const PlaceOver& p, const PlaceOver& q) {
 /// both coordinates are positive; edge i goes from corner i to the next.
 struct FacingSides {
     BoxFace reference, incident;
-    double half_u, half_v;            ///< of the reference side
-    PlaceOver middle, edge_u, edge_v; ///< of the incident side; half of the edges
+    double half_u = 0, half_v = 0;          ///< of the reference side
+    PlaceOver middle{}, edge_u{}, edge_v{}; ///< of the incident side; half of the edges
 
     FacingSides(const RoundedBox& a, const RoundedBox& b, const BoxAxes& axes,
                 const LeastOverlap& least, bool reference_is_a)
@@ -286,6 +286,8 @@ private:
 
 } // namespace
 
+// Only the corners that there are get values: clearing all would cost as much as setting them.
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
 BoxRegion::BoxRegion(const RoundedBox& a, const RoundedBox& b, const BoxAxes& axes,
                      const LeastOverlap& least, double least_depth)
     : deepest(-HUGE_VAL), reference_is_a(least.kind != LeastOverlap::Kind::face_b) {
