@@ -3,7 +3,6 @@
 #include "convex/body/convex_data.h"
 #include "convex/hull/placed_polytope.h"
 #include "core/borrowed.h"
-#include "geometry/known_separation.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "math/transform.h"
 #include "math/vector.h"
@@ -17,6 +16,7 @@
 #include "world/contacts/walls.h"
 #include "world/narrow_phase/contact_rounding.h"
 #include "world/narrow_phase/offset_surface.h"
+#include "world/solids/known_separation.h"
 
 #include <algorithm>
 #include <boost/container/small_vector.hpp>

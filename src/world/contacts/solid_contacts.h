@@ -2,10 +2,10 @@
 
 #include <abut/contacts.h>
 
-#include "geometry/known_separation.h"
 #include "geometry/rounded_box_distance.h"
 #include "world/contacts/contact_candidates.h"
 #include "world/contacts/contact_face.h"
+#include "world/solids/known_separation.h"
 #include "world/solids/write_points.h"
 
 #include <cstdint>

@@ -4,8 +4,8 @@
 #include <abut/model_contacts.h>
 #include <abut/rigid.h>
 
-#include "geometry/known_separation.h"
 #include "world/narrow_phase/body.h"
+#include "world/solids/known_separation.h"
 
 #include <boost/container/static_vector.hpp>
 #include <cstdint>

@@ -2,8 +2,8 @@
 
 #include <abut/contacts.h>
 
-#include "geometry/known_separation.h"
 #include "geometry/rounded_box_distance.h"
+#include "world/solids/known_separation.h"
 #include "world/solids/write_points.h"
 
 #include <vector>

@@ -4,7 +4,6 @@
 #include <abut/vector.h>
 #include <abut/world.h>
 
-#include "geometry/known_separation.h"
 #include "geometry/least_box_overlap.h"
 #include "tests/support/random.h"
 #include "world/contacts/contact_candidates.h"
@@ -12,6 +11,7 @@
 #include "world/contacts/near_pairs.h"
 #include "world/solids/box_region.h"
 #include "world/solids/capsule_height.h"
+#include "world/solids/known_separation.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "geometry/known_separation.h"
+#include "world/solids/known_separation.h"
 
 #include <cmath>
 
