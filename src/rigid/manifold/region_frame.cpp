@@ -160,18 +160,17 @@ Vec3 normal_of_touching(const ManifoldSide& a, const ManifoldSide& b, const Regi
                               : flatter_side(s.touching_a, s.touching_b);
 }
 
-/// The direction of the smallest gap: that of a face's normal where it is the same to rounding.
-Vec3 direction_of_nearest(std::span<const TriangleMeeting> region) {
+/// The direction of the smallest gap. Where the gap ends on the line along a face's normal, to rounding, it is
+/// that normal.
+Vec3 direction_of_nearest(std::span<const TriangleMeeting> region, double rounding) {
     const TriangleMeeting& nearest = *std::max_element(
         region.begin(), region.end(),
         [](const TriangleMeeting& m, const TriangleMeeting& n) { return m.weight < n.weight; });
-    const Vec3 way = normalized_or_zero(nearest.to - nearest.from);
-    constexpr double kSame = 0x1p-24;
-    for (const Vec3& normal : {nearest.normal_a, -nearest.normal_b})
-        for (const Vec3& face : {normal, -normal}) // of open surfaces, either side
-            if (length(face - way) <= kSame)
-                return face;
-    return way;
+    const Vec3 gap = nearest.to - nearest.from;
+    for (const Vec3& normal : {nearest.normal_a, nearest.normal_b})
+        if (normal != Vec3{} && length(cross(gap, normal)) <= rounding)
+            return dot(gap, normal) < 0 ? -normal : normal;
+    return normalized_or_zero(gap);
 }
 
 /// Turns the normal of a pair without an inside so that it points to the side on which the other
@@ -203,7 +202,7 @@ RegionFrame region_frame(const ManifoldSide& a, const ManifoldSide& b,
     else if (s.in_touch != nullptr)
         frame.normal = normal_of_touching(a, b, s);
     else
-        frame.normal = direction_of_nearest(region);
+        frame.normal = direction_of_nearest(region, rounding_of_heights(a, b));
     if ((frame.crosses || s.touches) && !(a.is_oriented() && b.is_oriented()))
         frame.normal = turned_to_outside(frame.normal, a, b, frame.centre);
     if (frame.normal == Vec3{})

@@ -31,6 +31,11 @@ struct RegionFrame {
     [[nodiscard]] double up(const Vec3& p) const { return dot(upwards, p - centre); }
 };
 
+/// The rounding of heights and gaps in the frame of the sides: that of positions, and sums of their products.
+inline double rounding_of_heights(const ManifoldSide& a, const ManifoldSide& b) {
+    return 0x1p-46 * (a.model().reach() + b.model().reach());
+}
+
 /// Finds the normal of a region.
 ///
 /// Crossing surfaces: the direction of the vector area that their common curve encloses. If the

@@ -50,9 +50,8 @@ public:
                  std::span<const TriangleMeeting> region, const TriangleMeetings& meetings,
                  const RegionFrame& frame, const ChoiceOptions& options, ChoiceMemory& memory)
         : a_(a), b_(b), region_(region), meetings_(meetings), frame_(frame), memory_(memory),
-          // Of heights: PlacedModel's positions, and sums of their products.
-          rounding_(0x1p-46 * (a.model().reach() + b.model().reach())),
-          margin_(options.margin + rounding_), last_(options.last) {}
+          rounding_(rounding_of_heights(a, b)), margin_(options.margin + rounding_),
+          last_(options.last) {}
 
     ModelManifold choose() {
         collect();
