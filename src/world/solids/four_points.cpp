@@ -136,8 +136,8 @@ void put_deepest_first(std::span<const RegionPoint> points,
                        boost::container::static_vector<std::size_t, 4>& places) {
     const std::size_t count = places.size();
     // Places beyond the count are the least deep.
-    std::array<double, 4> depths;
-    std::array<std::size_t, 4> ranks{}, sorted;
+    std::array<double, 4> depths{};
+    std::array<std::size_t, 4> ranks{}, sorted{};
     for (std::size_t i = 0; i < 4; ++i)
         depths[i] = i < count ? points[places[i]].depth : -HUGE_VAL;
     for (std::size_t i = 1; i < 4; ++i)
