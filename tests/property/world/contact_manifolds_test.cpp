@@ -362,6 +362,7 @@ double hull_area(std::vector<std::array<double, 2>> places) {
 
 double hull_area(const std::vector<RegionPoint>& points) {
     std::vector<std::array<double, 2>> places;
+    places.reserve(points.size());
     for (const RegionPoint& each : points)
         places.push_back({each.x, each.y});
     return hull_area(places);
