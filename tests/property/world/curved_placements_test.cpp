@@ -302,9 +302,9 @@ AnySolid grid_solid(Random& random, int kind, double scale) {
     const double a = some(), b = some(), c = some();
     if (kind < kUprightKinds)
         return upright_solid<AnySolid>(random, kind, a, b, c);
-    std::vector<Vec3> points;
-    for (int i = 0; i < 12; ++i)
-        points.push_back(scale * (random.on_lattice(8) - Vec3{4, 4, 4}));
+    std::vector<Vec3> points(12);
+    for (Vec3& point : points)
+        point = scale * (random.on_lattice(8) - Vec3{4, 4, 4});
     return Convex(points);
 }
 

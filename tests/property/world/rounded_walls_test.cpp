@@ -51,6 +51,7 @@ std::vector<ContactManifold> walls_of(const Mesh& mesh, const auto& shape, const
 std::vector<Vec3> upward_normals(const std::vector<ContactManifold>& found, const Pose& pose,
                                  bool shape_first) {
     std::vector<Vec3> normals;
+    normals.reserve(found.size());
     for (const ContactManifold& m : found)
         normals.push_back((shape_first ? -1 : 1) * pull_back(Transform(pose), m.normal));
     std::sort(normals.begin(), normals.end(),

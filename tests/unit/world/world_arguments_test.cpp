@@ -69,6 +69,7 @@ TEST(WorldArguments, IndicesEndBehindThePiecesOfCompounds) {
     const std::vector<Compound::Piece> pieces{
         {Sphere{{}, 1}}, {Sphere{{3, 0, 0}, 1}}, {Sphere{{6, 0, 0}, 1}}};
     std::vector<BodyId> ids;
+    ids.reserve(4);
     for (int i = 0; i < 3; ++i)
         ids.push_back(world.add(Compound(pieces), {{0, 4.0 * i, 0}}));
     ids.push_back(world.add(Sphere{{}, 1}, {{0, 20, 0}}));
